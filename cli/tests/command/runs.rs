@@ -105,14 +105,14 @@ fn run_on(folder: &Folder, mesh: &str, scene: &str, options: &str) -> (String, V
     (said + &warned, folder.summary("out"))
 }
 
-/// Sizes, volumes and numbers of nodes are by numpy; the last bar is of steel, with its density in t/mm³.
+/// Sizes, volumes and numbers of nodes are by numpy; the last block is of steel, with its density in t/mm³.
 #[test]
 fn what_will_be_run_is_printed_before_it_runs() {
     let folder = Folder::new();
-    folder.write("bar.msh", bar(1.0));
-    let bar = "scramble --amplitude 0 --gravity 9.81 --pin :,:0,: --mesh bar.msh --unit mm --density";
-    let size = "scramble: 18 tetrahedra, 16 nodes, 4 of them held\n  0.05 m along x, 0.15 m along y, 0.05 m along z; \
-                0.000375 m³";
+    folder.write("block.msh", BLOCK);
+    let block = "scramble --amplitude 0 --gravity 9.81 --pin :,:0,: --mesh block.msh --density";
+    let size = "scramble: 96 tetrahedra, 45 nodes, 15 of them held\n  0.02 m along x, 0.02 m along y, 0.04 m along z; \
+                1.6e-5 m³";
     let horse = "horse: 2646 tetrahedra, 787 nodes, 22 of them held\n  2.5123 m along x, 1.9211 m along y, 0.88668 m \
                  along z; 0.71164 m³, 711.64 kg\n  gravity 0 m/s² along y, which points upwards\n  rotated_linear ";
     let dinosaur = "dinosaur: 1031 tetrahedra, 347 nodes, 10 of them held\n  3.3466 m along x, 2.0772 m along y, 1.154 m \
@@ -120,8 +120,8 @@ fn what_will_be_run_is_printed_before_it_runs() {
     for (run, expected, is_odd) in [
         ("horse", horse, false),
         ("dinosaur", dinosaur, false),
-        (&format!("{bar} 1000")[..], &format!("{size}, 0.375 kg\n  gravity -9.81 m/s² along y")[..], false),
-        (&format!("{bar} 7.85e-9")[..], &format!("{size}, 2.94")[..], true),
+        (&format!("{block} 1000")[..], &format!("{size}, 0.016 kg\n  gravity -9.81 m/s² along y")[..], false),
+        (&format!("{block} 7.85e-9")[..], &format!("{size}, 1.256e-13 kg")[..], true),
     ] {
         let (said, warned) = folder.outputs(&format!("run {run} --frames 1"));
         assert!(said.starts_with(expected), "{said}");
@@ -136,7 +136,7 @@ fn groups_of_a_mesh_have_materials_of_their_own() {
     let folder = Folder::new();
     let run = |options: &str| {
         let options = format!("--amplitude 0 --gravity 9.81 {options}");
-        run_on(&folder, include_str!("twomaterials.msh"), "scramble", &options)
+        run_on(&folder, BLOCK, "scramble", &options)
     };
     let words = ["groups of the mesh: `soft`, `stiff`", "no node is held, and the body falls"];
     assert_contains(&run("").0, &words);
@@ -161,17 +161,17 @@ fn groups_of_a_mesh_have_materials_of_their_own() {
 
 #[test]
 fn elements_that_are_left_out_are_in_the_warnings() {
-    let mesh = bar(1e3).replace("$Elements\n18\n", "$Elements\n19\n2 6 0 1 2 3 5 6 7\n");
+    let mesh = BLOCK.replace("$Elements\n96\n", "$Elements\n97\n97 6 0 1 2 3 10 11 12\n");
     let (said, summary) = run_on(&Folder::new(), &mesh, "horse", "--only-tetrahedra");
     let warning = "only linear tetrahedra are read; left out of the body, which lacks their volume: 1 prism";
     assert!(said.contains(&format!("warning: {warning}")), "{said}");
-    assert_eq!((&summary["tets"], &summary["warnings"][0]), (&18.into(), &warning.into()));
+    assert_eq!((&summary["tets"], &summary["warnings"][0]), (&96.into(), &warning.into()));
 }
 
-/// A bar without nodes between the marks.
+/// A block with nodes at one height between the marks.
 #[test]
 fn a_reading_that_finds_no_nodes_says_so() {
-    let (said, summary) = run_on(&Folder::new(), &bar(1e3), "stretch", "");
+    let (said, summary) = run_on(&Folder::new(), BLOCK, "stretch", "");
     let missing = "no stretch was measured: between the marks, nodes lie at fewer than two heights";
     assert_eq!(said.matches(missing).count(), 2, "in the text and as a warning: {said}");
     assert!(!said.contains("NaN"), "{said}");
@@ -180,46 +180,28 @@ fn a_reading_that_finds_no_nodes_says_so() {
     assert!(reading.len() == 1 && reading["nominal_stress"].is_f64(), "{summary}");
 }
 
-/// A bar of three cubes with edges of 50, one above the other, in a unit that is `times` times as long.
-fn bar(times: f64) -> String {
-    let place = |cells: usize| (50 * cells) as f64 / times;
-    let mut nodes = String::new();
-    let mut elements = String::new();
-    for y in 0..4 {
-        for (x, z) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let number = 4 * y + 2 * z + x + 1;
-            nodes += &format!("{number} {} {} {}\n", place(x), place(y), place(z));
-        }
-    }
-    // Of a cube with corners by the bits of their number, z y x: ways along the edges from 0 to 7.
-    for cube in 0..3 {
-        let node = |corner: usize| 4 * (cube + corner / 2 % 2) + 2 * (corner / 4) + corner % 2 + 1;
-        for [a, b] in [[1, 3], [3, 2], [2, 6], [6, 4], [4, 5], [5, 1]] {
-            elements += &format!("1 4 0 {} {} {} {}\n", node(0), node(a), node(b), node(7));
-        }
-    }
-    format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n{nodes}$EndNodes\n$Elements\n18\n{elements}$EndElements\n"
-    )
-}
+/// A block of 2 × 2 × 4 cm in two groups, lower and upper by z.
+const BLOCK: &str = include_str!("twomaterials.msh");
 
 #[test]
 fn a_mesh_in_millimetres_is_the_body_in_metres() {
     let folder = Folder::new();
-    let surface = |times: f64, options: &str| {
-        let (said, _) = run_on(&folder, &bar(times), "horse", options);
+    let surface = |mesh: &str, options: &str| {
+        let (said, _) = run_on(&folder, mesh, "horse", options);
         (said, fs::read(folder.path("out/frame_0002.ply")).expect("a surface"))
     };
-    let (said, metres) = surface(1e3, "");
+    let (said, metres) = surface(BLOCK, "");
     assert!(!said.contains("warning"), "{said}");
-    for (times, unit) in [(1.0, "mm"), (10.0, "cm")] {
-        let (said, other) = surface(times, &format!("--unit {unit}"));
+    // Coordinates are 0.01 to 0.04.
+    let in_mm = (1..5).fold(BLOCK.to_owned(), |text, k| text.replace(&format!("0.0{k}"), &format!("{k}0")));
+    for (mesh, unit) in [(&in_mm, "mm"), (&BLOCK.replace("0.0", ""), "cm")] {
+        let (said, other) = surface(mesh, &format!("--unit {unit}"));
         assert!(!said.contains("warning") && other == metres, "{unit}: {said}");
     }
-    let (said, _) = surface(1.0, "");
-    assert!(said.contains("warning: the body is 150 m long") && said.contains("--unit mm"), "{said}");
-    let (said, _) = surface(1e7, "");
-    assert!(said.contains("warning: the body is 0.000015 m long"), "{said}");
+    let (said, _) = surface(&in_mm, "");
+    assert!(said.contains("warning: the body is 40 m long") && said.contains("--unit mm"), "{said}");
+    let (said, _) = surface(&BLOCK.replace("0.0", "0.0000"), "");
+    assert!(said.contains("warning: the body is 0.00004 m long"), "{said}");
 }
 
 #[test]
