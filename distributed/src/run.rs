@@ -11,6 +11,7 @@ use piola_scenes::material::{MaterialPart, MaterialSpec};
 use piola_scenes::measure;
 use piola_scenes::output::{Ended, Newton, StepCounts};
 use piola_scenes::play::{self, DragSprings, Stretch};
+use piola_scenes::run::speed;
 use piola_scenes::settings::{Settings, difference};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -316,9 +317,7 @@ impl<'a> Course<'a> {
         let pins = team.count(share.owned - share.free);
         let settings = &self.task.settings;
         let info = settings.material.build().ok();
-        let mut sorted: Vec<f64> = times.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
-        sorted.sort_unstable_by(f64::total_cmp);
-        let total: f64 = sorted.iter().sum();
+        let [ms_per_step_median, steps_per_second] = speed(times);
         let &About { frame, newton_iterations, systems, linear_iterations, .. } = &self.about;
         Summary {
             scene: settings.scene.name.to_owned(),
@@ -343,8 +342,8 @@ impl<'a> Course<'a> {
             min_det_f: self.about.min_det_f,
             max_distance_from_rest: (pins >= 3).then_some(farthest),
             energy,
-            ms_per_step_median: sorted.get(sorted.len() / 2).copied(),
-            steps_per_second: (total > 0.0).then(|| 1e3 * sorted.len() as f64 / total),
+            ms_per_step_median,
+            steps_per_second,
         }
     }
 }

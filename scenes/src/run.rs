@@ -14,7 +14,7 @@ use crate::output::{
 mod course;
 mod progress;
 
-pub use course::Course;
+pub use course::{Course, speed};
 
 /// Files of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -176,8 +176,8 @@ impl Course {
             _ => None,
         };
         let frames = self.progress.motion.len() - 1;
-        let total: Duration = self.times.iter().sum();
-        let Self { play, vtu, folder, progress, times, failures, .. } = self;
+        let [ms_per_step_median, steps_per_second] = speed(&self.times);
+        let Self { play, vtu, folder, progress, failures, .. } = self;
         let Play { settings, geometry, material, parameters, moduli, overview: mut body, .. } = play;
         let is_moved = match settings.start {
             Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. } => is_released,
@@ -205,8 +205,8 @@ impl Course {
             min_det_f: progress.min_det_f,
             max_distance_from_rest: distance,
             energy: progress.energy,
-            ms_per_step_median: median(&times).map(|time| 1e3 * time.as_secs_f64()),
-            steps_per_second: (!times.is_empty()).then(|| times.len() as f64 / total.as_secs_f64()),
+            ms_per_step_median,
+            steps_per_second,
             integrator: settings.integrator,
             tolerance: settings.tolerance,
             steps: progress.steps,
@@ -237,23 +237,25 @@ fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen<f64>) -> 
     }
 }
 
-/// The median of times; the mean of the two in the middle if their number is even.
-fn median(times: &[Duration]) -> Option<Duration> {
+/// Median time of steps, ms, the mean of the two in the middle if their number is even, and the number of
+/// steps per second; `None` without a step.
+///
+/// ```
+/// use piola_scenes::run::speed;
+/// use std::time::Duration;
+///
+/// for times in [&[9, 1, 5][..], &[9, 1, 4, 6]] {
+///     let times: Vec<_> = times.iter().copied().map(Duration::from_millis).collect();
+///     assert_eq!(speed(&times), [Some(5.0), Some(200.0)]);
+/// }
+/// assert_eq!(speed(&[]), [None; 2]);
+/// ```
+#[must_use]
+pub fn speed(times: &[Duration]) -> [Option<f64>; 2] {
     let mut times = times.to_vec();
     times.sort_unstable();
-    let last = times.len().checked_sub(1)?;
-    Some((times[last / 2] + times[times.len() / 2]) / 2)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn median_of_even_and_odd_counts() {
-        let times = |ms: &[u64]| median(&ms.iter().map(|&ms| Duration::from_millis(ms)).collect::<Vec<_>>());
-        assert_eq!(times(&[9, 1, 5]), Some(Duration::from_millis(5)));
-        assert_eq!(times(&[9, 1, 5, 7]), Some(Duration::from_millis(6)));
-        assert_eq!(times(&[]), None);
-    }
+    let Some(last) = times.len().checked_sub(1) else { return [None; 2] };
+    let median = (times[last / 2] + times[times.len() / 2]) / 2;
+    let total: Duration = times.iter().sum();
+    [Some(1e3 * median.as_secs_f64()), Some(times.len() as f64 / total.as_secs_f64())]
 }
