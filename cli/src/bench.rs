@@ -39,18 +39,12 @@ pub(crate) struct Material {
 }
 
 impl Material {
-    /// The material for curves at such a volume.
-    fn at(self, volume: Volume) -> Self {
-        match volume {
-            Volume::Free => self,
-            Volume::Kept => Self { formula: self.formula.at_constant_volume(), ..self },
-        }
-    }
-
-    /// Specification of the material with these parameters, the others having typical values.
-    pub(crate) fn spec(self) -> Result<MaterialSpec, Error> {
+    /// Specification of the material, for curves at such a volume, with these parameters, the others having
+    /// typical values.
+    pub(crate) fn spec(self, volume: Volume) -> Result<MaterialSpec, Error> {
         let listed = |name: Option<&str>| MaterialSpec::typical(name.unwrap_or_default());
-        Ok(self.formula.material(self.material.as_deref(), listed)?)
+        let formula = if volume == Volume::Kept { self.formula.at_constant_volume() } else { self.formula };
+        Ok(formula.material(self.material.as_deref(), listed)?)
     }
 }
 

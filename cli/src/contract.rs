@@ -22,7 +22,7 @@ pub(crate) struct Contract {
 
 impl Contract {
     pub(crate) fn run(self) -> Result<String, Error> {
-        let spec = self.material.spec()?;
+        let spec = self.material.spec(Volume::Free)?;
         let inversions = self.extend.map(|epsilon| Inversion::Extend { epsilon });
         let notation = spec.energy.as_ref().map_or_else(Notation::default, Energy::notation);
         let settings = Settings { notation, ..Settings::default() };

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use piola::Inversion;
 use piola_declare::emit::{Emission, PointFunction, Precision, Target};
+use piola_laboratory::curve::Volume;
 use piola_scenes::output::write_whole;
 
 use crate::bench::{Material, as_options};
@@ -53,7 +54,7 @@ impl Emit {
         if !self.functions.is_empty() {
             emission.functions = self.functions;
         }
-        let spec = self.material.spec()?.with_inversion(inversion);
+        let spec = self.material.spec(Volume::Free)?.with_inversion(inversion);
         let text = spec.emit(&emission)?;
         let Some(file) = self.output else { return Ok(text) };
         write_whole(&file, text.as_bytes())?;

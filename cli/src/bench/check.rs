@@ -46,7 +46,7 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(self) -> Result<String, Error> {
-        let material = self.material.spec()?.with_inversion(self.inversion);
+        let material = self.material.spec(Volume::Free)?.with_inversion(self.inversion);
         let stretches = SurveySettings { from: self.from, to: self.to, resolution: self.resolution };
         let description = material.description()?;
         let title = format!("{} {}", description.name, as_options(&material)?.replace("--param ", ""));

@@ -67,7 +67,7 @@ impl Curve {
             return self.rank();
         }
         let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
-        let given = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
+        let given = self.material.spec(volume)?.with_inversion(Inversion::Refuse);
         let material = if self.incompressible { at_constant_volume(&given)? } else { given.clone() };
         let info = material.build()?;
         let specimen = &material.interpreted()?;

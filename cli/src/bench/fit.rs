@@ -66,7 +66,7 @@ impl Fit {
             true => Volume::Free,
             false => Volume::Kept,
         };
-        let spec = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
+        let spec = self.material.spec(volume)?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
         let (kind, floor) = if self.absolute { ("absolute", 1.0) } else { ("relative", self.floor) };
