@@ -64,7 +64,7 @@ fn of_the_laboratory(folder: &Folder, name: &str) -> String {
     text
 }
 
-/// Parameters by numpy: of a published file in the shapes in which people have it; of a first and a second
+/// Parameters and scatter by numpy: of a published file in the shapes in which people have it; of a first and a second
 /// loading; of noise near rest; of a table in kgf/cm²; of a foam with μ = 12 kPa, α = 6, β → 0.
 #[test]
 fn readings_are_weighted_and_chosen_as_asked() {
@@ -79,7 +79,9 @@ fn readings_are_weighted_and_chosen_as_asked() {
     folder.write("foam.csv", format!("stress [MPa],strain,lateral strain\n{rows}"));
     let fit = |material: &str, data: &str| format!("fit {material} --mode uniaxial --data {data}");
     for (data, words) in [
-        ("cycles.csv", "cycles.csv: uniaxial turns 3 times"),
+        ("cycles.csv", "cycles.csv: uniaxial turns 3 times, and scatters by 10 %"),
+        ("cycles.csv --cycle 3", "there is no cycle 3 of uniaxial; they are counted from 1 to 2"),
+        ("cycles.csv --cycle 0", "there is no cycle 0"),
         ("square.txt --data noise.csv", "square.txt, noise.csv: uniaxial turns 2 times"),
         ("foam.inp", "foam.inp:8: this is an input deck"),
     ] {

@@ -155,8 +155,7 @@ impl Course {
         });
         let end = self.play.clock.time();
         let released = scene.pulls.iter().map(|pull| pull.released).filter(|released| released.is_finite());
-        let is_released = released.clone().next().is_some();
-        let held_until = released.fold(end, f64::max);
+        let held_until = released.fold(0.0, f64::max);
         let is_held = ended == Ended::Finished && !is_at_rest && held_until > end;
         let held = is_held.then(|| {
             format!("the last frame is at {end:.2} s, and the body is pulled until {held_until:.2} s: more frames show if it recovers")
@@ -180,7 +179,7 @@ impl Course {
         let Self { play, vtu, folder, progress, failures, .. } = self;
         let Play { settings, geometry, material, parameters, moduli, overview: mut body, .. } = play;
         let is_moved = match settings.start {
-            Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. } => is_released,
+            Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. } => held_until > 0.0,
             _ => true,
         };
         let asks = is_moved && body.held < body.nodes;
