@@ -6,7 +6,7 @@ use clap::Args;
 use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::fit::{self, FitError, FitSettings};
+use piola_laboratory::fit::{FitSettings, fit_parameters};
 
 use super::data::{Data, HELP};
 use super::{FINE, Material, as_options, at_rest, draw, spaced, titled};
@@ -72,9 +72,8 @@ impl Fit {
         let (kind, floor) = if self.absolute { ("absolute", 1.0) } else { ("relative", self.floor) };
         let (held, restarts) = (self.held, self.starts);
         let settings = FitSettings { volume, floor, held, restarts, ..FitSettings::default() };
-        let fit = fit::fit_parameters(&candidate, &data, &settings).map_err(|error| {
-            Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
-        })?;
+        let fit = fit_parameters(&candidate, &data, &settings)
+            .map_err(|error| Error::usage(format!("{material} cannot be fitted: {error}")))?;
         let fitted = spec.with_fitted(&fit.values)?;
         let options = as_options(&fitted)?;
 
@@ -96,14 +95,5 @@ impl Fit {
             draw(file, &title, &options, &curves, Some((&data, &fit.agreement)))?;
         }
         Ok(text)
-    }
-}
-
-/// The option that helps where parameters cannot be fitted.
-fn remedy(error: &FitError) -> &'static str {
-    match error {
-        FitError::Start(_) => " (--param gives others)",
-        FitError::TooFewPoints { .. } => " (--hold)",
-        _ => "",
     }
 }

@@ -263,7 +263,7 @@ impl fmt::Display for Warning {
 #[non_exhaustive]
 pub enum FitError {
     /// Fewer points than parameters.
-    #[error("{points} points cannot determine {free} parameters; hold some, or add data")]
+    #[error("{points} points cannot determine {free} parameters; hold some (`--hold`), or add data")]
     TooFewPoints {
         /// Points that count.
         points: usize,
@@ -271,7 +271,8 @@ pub enum FitError {
         free: usize,
     },
     /// Start parameters that the energy refuses, or with which it has no stress at a measured point.
-    #[error("the parameters to start from {verb} {error}", error = .0, verb = match .0 {
+    #[error("the parameters to start from {verb} {error}; give others (`--param`, `Candidate`)",
+        error = .0, verb = match .0 {
         TrialError::Point(_) => "must reach all points, but",
         TrialError::Inadmissible(_) => "are refused without an extension:",
     })]
