@@ -22,7 +22,7 @@ mod problem;
 mod uniqueness;
 
 use levenberg_marquardt::LeastSquaresProblem;
-use piola::__private::message::quoted;
+use piola::__private::message::{names, quoted};
 use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
 use piola::material::Form;
@@ -189,8 +189,8 @@ fn numbers(
         }
     }
     if let Some(name) = unknown.first() {
-        let known: Vec<_> = numbers.iter().map(|number: &Number| format!("`{}`", number.name)).collect();
-        let (name, known) = (quoted(name), known.join(", "));
+        let known = names(numbers.iter().map(|number: &Number| format!("`{}`", number.name)));
+        let name = quoted(name);
         return Err(FitError::Other(format!("there is no parameter `{name}` to hold; there are {known}")));
     }
     Ok((numbers, parameters))

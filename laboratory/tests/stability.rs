@@ -311,17 +311,13 @@ fn settings_are_checked() -> Tested {
 }
 
 #[test]
-fn reports_and_maps_are_complete() -> Tested {
+fn reports_are_narrow() -> Tested {
     let rubber = Gent::new(1e6, 3.0, 1e8)?;
     let settings = SurveySettings { resolution: 11, ..SurveySettings::default() };
     let report = survey(&rubber, &settings)?;
     assert!(report.admitted < report.points);
     let text = report.to_string();
     assert!(text.lines().all(|line| line.chars().count() <= 90), "{text}");
-    let svg = map(&rubber, &settings, "Gent, mu = 1e6")?;
-    for word in ["Gent, mu = 1e6", "λ1", "λ2", "uniaxial", "plane strain", "strong ellipticity lost"] {
-        assert!(svg.contains(word), "{word}");
-    }
     Ok(())
 }
 

@@ -178,7 +178,6 @@ fn what_a_bench_cannot_do() {
 fn a_ranking_that_is_none() {
     check(&[], "curve all", &["--data treloar"]);
     check(&[], "curve all --data treloar --param mu=1", &["cannot use --param"]);
-    check(&[], "curve all --data treloar --to 2", &["cannot use --to"]);
     let bulk = ("bulk.csv", "mode,stretch,nominal_stress_kPa\nvolumetric,0.9,-200\n".to_owned());
     check(&[bulk], "curve all --data bulk.csv", &["bulk.csv", "volumetric"]);
     check(&[], "curve all --data treloar --svg all.svg", &["cannot use --svg", "table"]);

@@ -228,5 +228,6 @@ fn a_material_is_checked() {
     assert_contains(&text, &words);
     let map = folder.read("map.svg");
     assert!(map.starts_with("<svg") && map.trim_end().ends_with("</svg>"));
+    assert_contains(&map, &[words[0], "λ1", "λ2", "plane strain", "constant volume", "Hill lost"]);
     assert_eq!(folder.content("").len(), 1, "the map and nothing else");
 }
