@@ -159,19 +159,6 @@ fn a_full_disk_ends_the_run_and_leaves_the_checkpoint() -> TestResult {
     Ok(())
 }
 
-/// A mesh file contains a flat element.
-#[test]
-fn a_flat_element_of_a_file_is_named() -> TestResult {
-    let scratch = tempfile::tempdir()?;
-    let file = scratch.path().join("two.msh");
-    let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 -1 1\n$EndNodes\n\
-                $Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 1 1 2 3 5 4\n$EndElements\n";
-    fs::write(&file, text)?;
-    let options = format!("statics scramble --mesh {}", file.display());
-    check_failure(&finish(command(2, &options))?, "element 2 is flat");
-    Ok(())
-}
-
 /// Runs the test `elements_are_judged_on_their_rank` of this program on four ranks.
 #[test]
 fn an_inverted_element_on_rank_3_ends_all_ranks() -> TestResult {

@@ -12,7 +12,6 @@ use numpy::{
     PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype,
 };
 use pyo3::prelude::*;
-use pyo3::types::PyFloat;
 
 use crate::errors::{type_error, type_name, value_error};
 use crate::shape;
@@ -78,13 +77,6 @@ impl<'py> Numbers<'py> {
         match (dtype.kind(), dtype.itemsize()) {
             (b'f', 4) => Ok(Self::Single(converted(&array)?)),
             (b'f' | b'i' | b'u' | b'b', _) => Ok(Self::Double(converted(&array)?)),
-            // Objects that are numbers to Python, such as fractions.
-            (b'O', _) => {
-                let numpy = given.py().import("numpy")?;
-                let float = numpy.call_method1("frompyfunc", (given.py().get_type::<PyFloat>(), 1, 1))?;
-                let floats = float.call1((array,)).map_err(|cause| no_numbers(name, given, Some(cause)))?;
-                Ok(Self::Double(converted(&as_array(name, &floats)?)?))
-            }
             _ => Err(no_numbers(name, given, None)),
         }
     }
@@ -119,7 +111,11 @@ pub(crate) fn deformations<'py, E: Element>(
     };
     let array = match common == points && array.is_c_contiguous() {
         true => array.clone(),
-        false => broadcast(array, axes, points, &common)?,
+        false => {
+            let results = array.py().import("piola.results")?;
+            let arguments = (array, common.clone(), axes == Axes::Trailing);
+            results.call_method1("broadcast", arguments)?.cast_into()?
+        }
     };
     let refused = |_| value_error("F cannot be read: another thread writes results to its memory");
     Ok((array.try_readonly().map_err(refused)?, common))
@@ -149,20 +145,6 @@ pub(crate) fn output<'py, E: Element>(
         value_error(format!("{name} cannot be written: {reason}"))
     };
     array.try_readwrite().map_err(refused)
-}
-
-/// A contiguous copy whose points have another shape, to which they can be broadcast.
-fn broadcast<'py, E: Element>(
-    array: &Bound<'py, PyArrayDyn<E>>,
-    axes: Axes,
-    found: &[usize],
-    points: &[usize],
-) -> PyResult<Bound<'py, PyArrayDyn<E>>> {
-    // Axes are added before those of the points, which may not be the first of the array.
-    let added = [vec![1; points.len() - found.len()], found.to_vec()].concat();
-    let numpy = array.py().import("numpy")?;
-    let array = array.call_method1("reshape", (axes.shape(&added, &[3, 3]),))?;
-    converted(numpy.call_method1("broadcast_to", (array, axes.shape(points, &[3, 3])))?.cast()?)
 }
 
 /// Rows of N numbers, as of positions: any sequence of sequences, or an array.
@@ -221,7 +203,7 @@ pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, T>> {
     Ok(array)
 }
 
-/// Result of `numpy.asarray` for an object, with NaN for masked entries.
+/// Result of `numpy.asarray` for an object, with NaN for masked entries and numbers for objects.
 fn as_array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     let array = given.py().import("piola.results")?.call_method1("as_array", (given,));
     Ok(array.map_err(|cause| no_numbers(name, given, Some(cause)))?.cast_into()?)

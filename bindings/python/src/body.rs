@@ -3,12 +3,11 @@
 use std::error::Error;
 use std::sync::Mutex;
 
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use piola::Survey;
 use piola::point::Filter;
 use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
 use piola_bodies::system::{self, ElasticResponse, NodalStiffness, Part};
-use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
 use pyo3::types::PySequence;
 
@@ -160,22 +159,9 @@ impl Body {
         positions: &Bound<'py, PyAny>,
         filter: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let sparse = py.import("scipy.sparse").map_err(|cause| {
-            let error = PyImportError::new_err(
-                "Body.stiffness returns a matrix of scipy: install scipy, or use Body.stiffness_blocks, which returns arrays",
-            );
-            error.set_cause(py, Some(cause));
-            error
-        })?;
         let (rows, columns, blocks) = self.stiffness_blocks(py, positions, filter)?;
-        // Solvers take indices of 32 bits, unless there are too many entries.
-        let dtype = if i32::try_from(9 * rows.len()).is_ok() { "int32" } else { "int64" };
-        let (numpy, nodes) = (py.import("numpy")?, self.body.rest().len());
-        let starts =
-            numpy.call_method1("searchsorted", (rows, numpy.call_method1("arange", (nodes + 1,))?))?;
-        let index = |array: Bound<'py, PyAny>| array.call_method1("astype", (dtype,));
-        let arrays = (blocks, index(columns.into_any())?, index(starts)?);
-        sparse.call_method1("bsr_array", (arrays, (3 * nodes, 3 * nodes)))?.call_method0("tocsr")
+        let nodes = self.body.rest().len();
+        py.import("piola.results")?.call_method1("csr_array", (rows, columns, blocks, nodes))
     }
 
     /// Stiffness, N/m, in blocks of 3x3: (rows, columns, blocks), of shapes (b,), (b,) and (b, 3, 3).

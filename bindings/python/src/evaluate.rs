@@ -14,7 +14,7 @@ use crate::arrays::{Axes, Numbers, deformations, kind, output};
 use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
-use crate::quantity::{Materials, Order, Quantity};
+use crate::quantity::{Materials, Quantity};
 use crate::shape;
 use crate::threads::on_threads;
 
@@ -94,11 +94,6 @@ impl<'py> Call<'_, 'py> {
                 Axes::Trailing => count * component + point,
             };
             let entries = output.as_slice_mut()?;
-            for (one, other) in quantity.order().exchanged(components) {
-                for point in 0..count {
-                    entries.swap(at(point, one), at(point, other));
-                }
-            }
             let from_first = cells.iter().enumerate().skip(survey.first.unwrap_or(count));
             for (point, _) in from_first.filter(|(_, cell)| !cell.get().is_clean()) {
                 for component in 0..components {
@@ -118,7 +113,7 @@ impl<'py> Call<'_, 'py> {
         Ok(outputs.into_iter().map(|output| output.as_any().clone()).collect())
     }
 
-    /// Computes a quantity in the order of a batch, and the status of each point, if there are cells for it.
+    /// Computes a quantity, and the status of each point, if there are cells for it.
     fn compute<E: Kernels + Element>(
         &self,
         axes: Axes,
@@ -194,10 +189,6 @@ fn measure(name: &str) -> PyResult<Measure> {
     ];
     let known = r#""second_piola", "kirchhoff", "cauchy", "jaumann" or "green_naghdi""#;
     choice("measure", name, &measures, known)
-}
-
-fn order(name: &str) -> PyResult<Order> {
-    choice("order", name, &[("voigt", Order::Voigt), ("abaqus", Order::Abaqus)], r#""voigt" or "abaqus""#)
 }
 
 /// The meaning of the word that an argument is, one of these.
@@ -308,20 +299,17 @@ impl Material {
 
     /// Stresses in another measure with their tangents, Pa.
     ///
-    ///     measured(F, measure, /, *, tangent=True, order="voigt", trailing=None, out=None, status=None,
-    ///              threads=None)
+    ///     measured(F, measure, /, *, tangent=True, trailing=None, out=None, status=None, threads=None)
     ///
     /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent
-    ///     c), "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
+    ///     c), "jaumann" (σ and DDSDDE of Abaqus, except for the order) or "green_naghdi" (σ and c★).
     /// tangent: False for the stress only.
-    /// order: order of the components, "voigt" for 11, 22, 33, 23, 13, 12 or "abaqus" for 11, 22, 33, 12, 13,
-    ///     23, which is that of Abaqus/Standard.
     ///
-    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6).
+    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), with the components 11, 22, 33, 23, 13,
+    /// 12; [0, 1, 2, 5, 4, 3] are their places in the order of Abaqus/Standard.
     /// Other arguments and errors as for `energy`.
     #[pyo3(signature = (
-        F, measure, /, *, tangent = true, order = "voigt", trailing = None, out = None, status = None,
-        threads = None
+        F, measure, /, *, tangent = true, trailing = None, out = None, status = None, threads = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn measured<'py>(
@@ -329,17 +317,16 @@ impl Material {
         F: &Bound<'py, PyAny>,
         measure: &str,
         tangent: bool,
-        order: &str,
         trailing: Option<bool>,
         out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (measure, order) = (self::measure(measure)?, self::order(order)?);
+        let measure = self::measure(measure)?;
         let call = Call { filter: Filter::None, trailing, out, status, threads };
         match tangent {
-            true => call.run(self, F, Quantity::MeasuredTangent(measure, order)),
-            false => call.run(self, F, Quantity::MeasuredStress(measure, order)),
+            true => call.run(self, F, Quantity::MeasuredTangent(measure)),
+            false => call.run(self, F, Quantity::MeasuredStress(measure)),
         }
     }
 }

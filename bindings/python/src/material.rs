@@ -425,7 +425,7 @@ fn declared(
     free_rest: bool,
     keywords: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<MaterialSpec> {
-    let letters = &as_identifiers(py, text)?;
+    let letters: String = py.import("piola.results")?.call_method1("as_identifiers", (text,))?.extract()?;
     let is_used =
         |name: &str| letters.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
     let mut known = Vec::new();
@@ -436,9 +436,9 @@ fn declared(
     let (value, free_rest_option) = (Some("NAME=VALUE"), Some("free_rest=True"));
     let any = FormulaOptions { free_rest, value, free_rest_option, ..FormulaOptions::default() };
     let with_known = FormulaOptions { parameters: (!known.is_empty()).then_some(known), ..any.clone() };
-    let energy = py.detach(|| match Energy::from_text_with(letters, &with_known) {
+    let energy = py.detach(|| match Energy::from_text_with(&letters, &with_known) {
         // Where keywords are missing or wrong the material says which parameters there are.
-        Err(mistakes) if with_known != any => Energy::from_text_with(letters, &any).map_err(|_| mistakes),
+        Err(mistakes) if with_known != any => Energy::from_text_with(&letters, &any).map_err(|_| mistakes),
         energy => energy,
     });
     // Ctrl-C during the compilation ends here.
@@ -453,21 +453,6 @@ fn declared(
         spec.material = label(name);
     }
     Ok(spec)
-}
-
-/// A text with the letters that Python substitutes in keywords: μ for the micro sign, φ for ϕ.
-fn as_identifiers(py: Python<'_>, text: &str) -> PyResult<String> {
-    let mut letters = String::new();
-    for c in text.chars() {
-        match c.is_alphabetic() && !c.is_ascii() {
-            true => {
-                let normal = py.import("unicodedata")?.call_method1("normalize", ("NFKC", c))?;
-                letters += &normal.extract::<String>()?;
-            }
-            false => letters.push(c),
-        }
-    }
-    Ok(letters)
 }
 
 /// The name of a material in one line, not longer than a line.

@@ -9,27 +9,6 @@ use piola::material::PerPoint;
 use piola::point::Filter;
 use piola::point::measures::Measure;
 
-/// The order of the components of symmetric tensors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Order {
-    /// 11, 22, 33, 23, 13, 12: the order of a batch.
-    Voigt,
-    /// 11, 22, 33, 12, 13, 23.
-    Abaqus,
-}
-
-impl Order {
-    /// The pairs among the 6 components of a stress, or the 36 of a tangent, that are exchanged to get this
-    /// order from that of a batch.
-    pub(crate) fn exchanged(self, components: usize) -> impl Iterator<Item = (usize, usize)> {
-        /// Exchanges 23 and 12.
-        const ABAQUS: [usize; 6] = [0, 1, 2, 5, 4, 3];
-        let count = if self == Self::Abaqus { components } else { 0 };
-        let pair = |component| (component, 6 * ABAQUS[component / 6] + ABAQUS[component % 6]);
-        (0..count).map(pair).filter(|(one, other)| one < other)
-    }
-}
-
 /// A quantity that is computed of each point.
 #[derive(Clone, Copy)]
 pub(crate) enum Quantity {
@@ -39,8 +18,8 @@ pub(crate) enum Quantity {
     Tangent,
     /// ψ, P and dP/dF.
     All,
-    MeasuredStress(Measure, Order),
-    MeasuredTangent(Measure, Order),
+    MeasuredStress(Measure),
+    MeasuredTangent(Measure),
 }
 
 impl Quantity {
@@ -51,8 +30,8 @@ impl Quantity {
             Self::Stress => &[&[3, 3]],
             Self::Tangent => &[&[3, 3], &[3, 3, 3, 3]],
             Self::All => &[&[], &[3, 3], &[3, 3, 3, 3]],
-            Self::MeasuredStress(..) => &[&[6]],
-            Self::MeasuredTangent(..) => &[&[6], &[6, 6]],
+            Self::MeasuredStress(_) => &[&[6]],
+            Self::MeasuredTangent(_) => &[&[6], &[6, 6]],
         }
     }
 
@@ -61,15 +40,7 @@ impl Quantity {
         self.components().iter().map(|shape| shape.iter().product())
     }
 
-    /// The order of the components of its results.
-    pub(crate) fn order(self) -> Order {
-        match self {
-            Self::MeasuredStress(_, order) | Self::MeasuredTangent(_, order) => order,
-            _ => Order::Voigt,
-        }
-    }
-
-    /// Computes results in the order of a batch.
+    /// Computes results.
     pub(crate) fn compute<E: Kernels>(
         self,
         batch: &Batch<'_, E>,
@@ -81,8 +52,8 @@ impl Quantity {
             (Self::Stress, [P]) => batch.stresses(F, P),
             (Self::Tangent, [P, dP_dF]) => batch.tangents(F, P, dP_dF),
             (Self::All, [energies, P, dP_dF]) => batch.energies_and_tangents(F, energies, P, dP_dF),
-            (Self::MeasuredStress(measure, _), [stresses]) => batch.measured_stresses(measure, F, stresses),
-            (Self::MeasuredTangent(measure, _), [stresses, tangents]) => {
+            (Self::MeasuredStress(measure), [stresses]) => batch.measured_stresses(measure, F, stresses),
+            (Self::MeasuredTangent(measure), [stresses, tangents]) => {
                 batch.measured_tangents(measure, F, stresses, tangents)
             }
             _ => unreachable!("a result for each of the components"),

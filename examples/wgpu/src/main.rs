@@ -15,8 +15,8 @@ use piola_wgpu::{Error, PREFIX, mesh, points};
 const FORMULA: &str = "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2";
 const PARAMETERS: [&[f64]; 2] = [&[1e6], &[5e6]];
 
-/// Cubes of the bar along each axis, five tetrahedra each.
-const CELLS: [usize; 3] = [200, 40, 25];
+/// Cubes of the bar along each axis, six tetrahedra each.
+const CELLS: [usize; 3] = [196, 34, 25];
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -44,7 +44,7 @@ fn bar() -> Result<(), Error> {
     let energy = Energy::from_formula(FORMULA)?;
     let device = Device::open()?;
     println!("{}", device.name);
-    let mesh = mesh::bar(CELLS);
+    let mesh = mesh::bar(CELLS)?;
     for function in [PointFunction::Tetrahedron, PointFunction::ProjectedTetrahedron] {
         let (prefix, functions) = (Some(PREFIX.into()), vec![function]);
         let emission = Emission { prefix, functions, ..Emission::new(Target::Wgsl) };

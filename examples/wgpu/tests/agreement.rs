@@ -70,7 +70,7 @@ fn check(formula: &str, values: &[&[f64]]) {
     let energy = Energy::from_formula(formula).expect("a formula");
     let material = energy.material(values, Inversion::Refuse).expect("admissible parameters");
     // The last line of 64 elements is not full.
-    let mesh = bar([11, 4, 3]);
+    let mesh = bar([11, 4, 3]).expect("a box");
     for (function, filter) in FUNCTIONS {
         let (prefix, functions) = (Some(PREFIX.into()), vec![function]);
         let emission = Emission { prefix, functions, ..Emission::new(Target::Wgsl) };

@@ -140,7 +140,6 @@ class Material:
         /,
         *,
         tangent: bool = True,
-        order: Literal["voigt", "abaqus"] = "voigt",
         trailing: Optional[bool] = None,
         out: Any = None,
         status: _Flags = None,

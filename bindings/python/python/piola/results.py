@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import json
+import unicodedata
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -133,12 +134,41 @@ class Stability(NamedTuple):
 
 
 def as_array(given):
-    """`numpy.asarray`, with NaN for masked entries, of an array or of the arrays in a list."""
+    """`numpy.asarray`, with NaN for masked entries, of an array or of the arrays in a list, and numbers for objects."""
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
         given = (given.astype(float) if given.dtype.kind in "iub" else given).filled(np.nan)
     elif isinstance(given, (list, tuple)) and any(isinstance(array, np.ma.MaskedArray) for array in given):
         given = [as_array(array) for array in given]
-    return np.asarray(given)
+    array = np.asarray(given)
+    # Objects that are numbers to Python, such as fractions.
+    return np.asarray(np.frompyfunc(float, 1, 1)(array), float) if array.dtype == object else array
+
+
+def as_identifiers(text):
+    """A text with the letters that Python substitutes in keywords: μ for the micro sign, φ for ϕ."""
+    letters = (not c.isascii() and c.isidentifier() for c in text)
+    return "".join(unicodedata.normalize("NFKC", c) if is_letter else c for c, is_letter in zip(text, letters))
+
+
+def csr_array(rows, columns, blocks, nodes):
+    """The matrix of blocks of 3x3 that come row by row."""
+    try:
+        from scipy.sparse import bsr_array
+    except ImportError as cause:
+        advice = "install scipy, or use Body.stiffness_blocks, which returns arrays"
+        raise ImportError(f"Body.stiffness returns a matrix of scipy: {advice}") from cause
+    # Solvers take indices of 32 bits, unless there are too many entries.
+    dtype = np.int32 if 9 * len(rows) < 2**31 else np.int64
+    starts = np.searchsorted(rows, np.arange(nodes + 1))
+    return bsr_array((blocks, columns.astype(dtype), starts.astype(dtype)), (3 * nodes, 3 * nodes)).tocsr()
+
+
+def broadcast(F, points, trailing):
+    """A contiguous F whose points have another shape, to which they can be broadcast."""
+    if trailing:
+        # Axes are added before those of the points.
+        F = F.reshape((3, 3) + (1,) * (2 + len(points) - F.ndim) + F.shape[2:])
+    return np.ascontiguousarray(np.broadcast_to(F, (3, 3, *points) if trailing else (*points, 3, 3)))
 
 
 def question_axes(shape, trailing):
