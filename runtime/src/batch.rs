@@ -94,7 +94,6 @@ impl<'a, E: Kernels> Batch<'a, E> {
             filter: Filter::None,
             backend: Backend::best(),
             layout: Layout::Points,
-            streams: false,
             keeps_svd: false,
         };
         Self { call, threads: false, statuses: &[] }
@@ -118,15 +117,6 @@ impl<'a, E: Kernels> Batch<'a, E> {
     #[must_use]
     pub fn with_layout(mut self, layout: Layout) -> Self {
         self.call.layout = layout;
-        self
-    }
-
-    /// Sets whether tangents are written past the caches: about twice as fast if they exceed the last-level
-    /// cache, and slower if they would have stayed in it. Needs [`Layout::Lines`] and slices aligned to 64
-    /// bytes, else it does nothing.
-    #[must_use]
-    pub fn with_streams(mut self, streams: bool) -> Self {
-        self.call.streams = streams;
         self
     }
 

@@ -16,7 +16,6 @@ mod backend;
 mod complement;
 mod elementary;
 mod lanes2;
-mod non_temporal;
 mod polynomial;
 mod primitive;
 mod real;
@@ -33,8 +32,6 @@ pub use backend::Kernel;
 pub(crate) use complement::scaled_complement;
 #[doc(hidden)] // in place of the registers of a processor
 pub use lanes2::Lanes2;
-#[doc(hidden)] // of a hidden method of `Lanes`
-pub use non_temporal::NonTemporal;
 pub use real::{Mask, Real};
 #[doc(hidden)] // how the interpreter is compiled once for each format
 pub use vector::ByFormat;

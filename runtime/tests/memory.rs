@@ -67,26 +67,6 @@ fn registers_are_loaded_and_stored_within_their_slices() {
     for_each(check::<f64>, check::<f32>);
 }
 
-#[test]
-fn slices_are_copied_past_the_caches_within_their_ends() {
-    fn check<E: Scalar>(backend: Backend) {
-        for start in 0..18 {
-            for count in 0..66 {
-                // From the start of a register and from everywhere between.
-                let (from, mut to) =
-                    (counted::<E>(count), vec![E::default(); start + count].into_boxed_slice());
-                backend.store_non_temporal(&from, &mut to[start..]);
-                assert_eq!(to[start..], *from, "{backend}: {count} numbers from {start} on");
-                assert!(to[..start].iter().all(|&x| x == E::default()), "{backend}");
-            }
-        }
-        let longer =
-            AssertUnwindSafe(|| backend.store_non_temporal(&counted::<E>(64), &mut counted::<E>(63)));
-        assert!(catch_unwind(longer).is_err(), "{backend}");
-    }
-    for_each(check::<f64>, check::<f32>);
-}
-
 /// Brings points to a line, or the first points of a line to their places.
 struct Turn<'a, E, const N: usize> {
     from: &'a [E],

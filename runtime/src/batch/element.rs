@@ -132,7 +132,6 @@ impl Elements {
             filter,
             backend,
             layout: Layout::Points,
-            streams: false,
             keeps_svd: true,
         };
         f64::with_workspace(|Workspace { svd: spare, scratch, .. }| {

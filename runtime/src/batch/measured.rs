@@ -35,7 +35,7 @@ impl<E: Kernels> Batch<'_, E> {
             tile.decompose(0);
             let refused = tile.gradients();
             let Tile { call, count, svd: points, scratch: Scratch { gradients, line, .. }, .. } = tile;
-            let to = call.sink(stresses, None, 0);
+            let to = call.sink(stresses, 0);
             let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
             refused | E::measured_stress(call.backend, kernel)
         })
@@ -59,15 +59,14 @@ impl<E: Kernels> Batch<'_, E> {
         let outputs = [("stresses", stresses, 6), ("tangents", tangents, 36)];
         self.run([("F", F, 9)], outputs, |job, [F], [stresses, tangents]| {
             let call = Call { filter: Filter::None, ..job.call };
-            let fence = call.fence();
             let mut tile = Job { call, ..job }.points(F);
             tile.decompose(0);
             let judged = tile.blocks();
             let Tile { count, svd: points, scratch: Scratch { blocks, line, .. }, .. } = tile;
-            let (points, to) = (&*points, call.sink(stresses, None, 0));
+            let (points, to) = (&*points, call.sink(stresses, 0));
             let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };
             let stressed = E::measured_stress(call.backend, kernel);
-            let to = call.sink(tangents, fence.as_ref(), 0);
+            let to = call.sink(tangents, 0);
             let kernel = MeasuredTangent { measure, points, blocks, count, line, to };
             E::measured_tangent(call.backend, kernel) | stressed | judged
         })

@@ -15,7 +15,7 @@ use crate::kernels::stress::{Stress, StressByInvariants};
 use crate::kernels::svd_tile::SvdTile;
 use crate::kernels::tangents::{FilterBlocks, Tangents, TangentsByInvariants};
 use crate::kernels::workspace::{Scratch, Workspace};
-use crate::lanes::{Backend, NonTemporal};
+use crate::lanes::Backend;
 use crate::point::Filter;
 use crate::status::Status;
 
@@ -27,27 +27,15 @@ pub(super) struct Call<'a, E> {
     pub(super) filter: Filter,
     pub(super) backend: Backend,
     pub(super) layout: Layout,
-    pub(super) streams: bool,
     /// True if decompositions are kept for later calls. The invariants are then used for all points of a tile
     /// or for none, so that a decomposition covers all points.
     pub(super) keeps_svd: bool,
 }
 
 impl<E: Kernels> Call<'_, E> {
-    /// The guard of stores past the caches. A call without them has none: ordinary stores would wait for it.
-    pub(super) fn fence(&self) -> Option<NonTemporal> {
-        (self.streams && self.layout == Layout::Lines).then(NonTemporal::new)
-    }
-
-    /// Sink for the points that are not in `served`; with the [`fence`](Self::fence) of this tile, for
-    /// outputs that may be larger than the caches.
-    pub(super) fn sink<'t>(
-        &self,
-        to: &'t mut [E],
-        fence: Option<&'t NonTemporal>,
-        served: u64,
-    ) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, non_temporal: fence, served }
+    /// Sink for the points that are not in `served`.
+    pub(super) fn sink<'t>(&self, to: &'t mut [E], served: u64) -> Sink<'t, E> {
+        Sink { to, layout: self.layout, served }
     }
 }
 
@@ -117,7 +105,7 @@ impl<E: Kernels> Tile<'_, E> {
                 outputs: self.outputs,
                 count: self.count,
                 line: &mut self.scratch.line,
-                to: call.sink(to, None, 0),
+                to: call.sink(to, 0),
             };
             served &= E::stress_by_invariants(call.backend, kernel);
             served = self.accepted(served);
@@ -134,7 +122,7 @@ impl<E: Kernels> Tile<'_, E> {
             outputs: self.outputs,
             count: self.count,
             line,
-            to: call.sink(to, None, served),
+            to: call.sink(to, served),
         };
         (refused | E::stress(call.backend, kernel)) & !served
     }
@@ -150,7 +138,6 @@ impl<E: Kernels> Tile<'_, E> {
         let call = self.call;
         let Properties { has_energy_by_invariants, has_second_invariant, curvature, has_pole, .. } =
             call.properties;
-        let fence = call.fence();
         let mut served =
             if energies.is_none() || has_energy_by_invariants { self.derivatives_by_invariants() } else { 0 };
         if let Some(energies) = energies.as_deref_mut() {
@@ -168,8 +155,8 @@ impl<E: Kernels> Tile<'_, E> {
                 count: self.count,
                 line,
                 short_line,
-                first: call.sink(first, None, 0),
-                second: call.sink(second, fence.as_ref(), 0),
+                first: call.sink(first, 0),
+                second: call.sink(second, 0),
             };
             served &= E::tangents_by_invariants(call.backend, kernel);
             served = self.accepted(served);
@@ -184,10 +171,10 @@ impl<E: Kernels> Tile<'_, E> {
         }
         let (points, outputs, count) = (&*self.svd, self.outputs, self.count);
         let Scratch { blocks, line, .. } = &mut *self.scratch;
-        let to = call.sink(first, None, served);
+        let to = call.sink(first, served);
         let kernel = Stress { points, gradients: &blocks.0, outputs, count, line, to };
         let stressed = E::stress(call.backend, kernel);
-        let to = call.sink(second, fence.as_ref(), served);
+        let to = call.sink(second, served);
         let kernel = Tangents { points, blocks, outputs, count, has_pole, line, to };
         (E::tangents(call.backend, kernel) | stressed | status) & !served
     }

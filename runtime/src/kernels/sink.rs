@@ -1,7 +1,7 @@
 //! Layouts of the components of many points in a slice, and the ways of lanes into it and out of it.
 
 use super::rows::TILE;
-use crate::lanes::{Backend, Kernel, Lanes, NonTemporal, Scalar};
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 
 /// Layout of the N components of each of many points in a slice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -135,8 +135,6 @@ pub(crate) struct Sink<'a, E> {
     /// The part of the slice that belongs to the tile.
     pub(crate) to: &'a mut [E],
     pub(crate) layout: Layout,
-    /// Fence for non-temporal stores past the caches; ordinary stores without one.
-    pub(crate) non_temporal: Option<&'a NonTemporal>,
     /// Points whose output is left unchanged, as bits.
     pub(crate) served: u64,
 }
@@ -162,7 +160,7 @@ impl<E: Scalar> Sink<'_, E> {
 
     #[inline(always)]
     fn is_direct(&self) -> bool {
-        self.layout == Layout::Lines && self.non_temporal.is_none() && self.served == 0
+        self.layout == Layout::Lines && self.served == 0
     }
 
     /// Copies a place to the slice; `count` is the number of points of the tile.
@@ -176,7 +174,7 @@ impl<E: Scalar> Sink<'_, E> {
         if self.is_direct() {
             return;
         }
-        let (start, offset) = (at / E::LINE * N * E::LINE, at % E::LINE);
+        let offset = at % E::LINE;
         let line = &line.0.as_flattened()[..N * E::LINE];
         if self.served != 0 {
             for lane in (0..R::LANES.min(count - at)).filter(|lane| self.served >> (at + lane) & 1 == 0) {
@@ -186,16 +184,7 @@ impl<E: Scalar> Sink<'_, E> {
             }
             return;
         }
-        match (self.layout, self.non_temporal) {
-            (Layout::Lines, Some(fence)) => {
-                if offset + R::LANES == E::LINE {
-                    R::store_non_temporal(line, &mut self.to[start..][..N * E::LINE], fence);
-                }
-            }
-            _ => {
-                let points = R::LANES.min(count - at);
-                R::line_to_points::<N>(&line[offset..], points, &mut self.to[at * N..]);
-            }
-        }
+        let points = R::LANES.min(count - at);
+        R::line_to_points::<N>(&line[offset..], points, &mut self.to[at * N..]);
     }
 }

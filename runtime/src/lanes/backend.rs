@@ -11,7 +11,6 @@
 use std::fmt;
 
 use super::lanes2::Lanes2;
-use super::non_temporal::NonTemporal;
 use super::vector::{InstructionSet, Lanes, Scalar};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{F32x8, F32x16, F64x4, F64x8};
@@ -135,24 +134,6 @@ impl Backend {
             Instructions::Avx2 => unsafe { kernel.with_avx2() },
             Instructions::Portable => kernel.portable(),
         }
-    }
-
-    /// Copies a slice by [`Lanes::store_non_temporal`], for tests of the memory that it writes.
-    ///
-    /// # Panics
-    /// If the lengths differ.
-    #[doc(hidden)]
-    pub fn store_non_temporal<E: Scalar>(self, from: &[E], to: &mut [E]) {
-        struct Copy<'a, E>(&'a [E], &'a mut [E]);
-        impl<E: Scalar> Kernel<E> for Copy<'_, E> {
-            type Output = ();
-
-            #[inline(always)]
-            fn run<R: Lanes<Scalar = E>>(self) {
-                R::store_non_temporal(self.0, self.1, &NonTemporal::new());
-            }
-        }
-        self.run(Copy(from, to));
     }
 }
 

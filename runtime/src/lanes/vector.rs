@@ -2,7 +2,6 @@
 
 use std::fmt::Debug;
 
-use super::non_temporal::NonTemporal;
 use super::primitive::Primitive;
 use super::real::Real;
 
@@ -47,18 +46,6 @@ pub trait Lanes: Real {
     /// # Panics
     /// If the slice is shorter.
     fn store(self, to: &mut [Self::Scalar]);
-
-    /// Copies a slice by non-temporal stores, past the caches, if the back end has such and `to` consists of
-    /// whole aligned registers; otherwise through the caches.
-    ///
-    /// # Panics
-    /// If the lengths differ.
-    #[doc(hidden)] // for the kernels of batches
-    #[inline]
-    fn store_non_temporal(from: &[Self::Scalar], to: &mut [Self::Scalar], fence: &NonTemporal) {
-        let _ = fence;
-        to.copy_from_slice(from);
-    }
 
     /// Brings up to [`LINE`](Scalar::LINE) points, each with its N components one after the other, to a line:
     /// component k of point p from `from[p * N + k]` to `to[k * LINE + p]`.

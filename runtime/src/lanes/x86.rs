@@ -11,7 +11,6 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::elementary_functions;
 use super::lanes2::Lanes2;
-use super::non_temporal::NonTemporal;
 use super::primitive::{Primitive, exponent_or_limit, lift};
 use super::real::{Mask, Real};
 use super::vector::{Lanes, Scalar};
@@ -68,7 +67,7 @@ macro_rules! register {
         $Register:ident($Raw:ident) of $lanes:literal $Number:ident, mask $Mask:ty,
         compare $compare:ident |$compared:ident| $mask_of:expr, casts $to_bits:ident $from_bits:ident,
         integers $set_bits:ident $subtract:ident, two_biases $two_biases:expr,
-        features $features:literal, splat $splat:ident, load $load:ident, store $store:ident, stream $stream:ident,
+        features $features:literal, splat $splat:ident, load $load:ident, store $store:ident,
         transpose $transpose:path, narrower $Narrower:ident, add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident,
         mul_add $mul_add:ident, sqrt $sqrt:ident, max $max:ident, min $min:ident,
         xor $xor:ident, and_not $and_not:ident,
@@ -95,20 +94,6 @@ macro_rules! register {
 
         // Functions of their own: inlined into every kernel they would only take its registers.
         impl $Register {
-            #[target_feature(enable = $features)]
-            fn stream_registers(from: &[$Number], to: &mut [$Number]) {
-                let is_aligned = to.as_ptr().cast::<$Register>().is_aligned();
-                if !is_aligned || to.len() % $lanes != 0 || from.len() != to.len() {
-                    return to.copy_from_slice(from);
-                }
-                let (to_registers, from_registers) =
-                    (to.as_chunks_mut::<$lanes>().0, from.as_chunks::<$lanes>().0);
-                for (to, from) in to_registers.iter_mut().zip(from_registers) {
-                    // SAFETY: `to` is as long as the register and aligned to it.
-                    unsafe { $stream(to.as_mut_ptr(), Self::load(from).0) }
-                }
-            }
-
             /// Transposes a matrix whose rows are FROM apart into one whose rows are TO apart, by squares, at
             /// least one. What is left is a square that overlaps its neighbour, or, if it is narrow, copied.
             #[target_feature(enable = $features)]
@@ -232,12 +217,6 @@ macro_rules! register {
                 let to = &mut to[..$lanes];
                 // SAFETY: `to` is as long as the register.
                 unsafe { $store(to.as_mut_ptr(), self.0) }
-            }
-
-            #[inline(always)]
-            fn store_non_temporal(from: &[$Number], to: &mut [$Number], _: &NonTemporal) {
-                // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
-                unsafe { Self::stream_registers(from, to) }
             }
 
             #[inline(always)]
@@ -402,7 +381,7 @@ register_512! {
         let series = e.mul_add(Self::splat(0.3125), Self::splat(0.375)).mul_add(e, Self::splat(0.5));
         y.mul_add(e * series, y)
     },
-    features "avx512f,avx512dq", splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd,
+    features "avx512f,avx512dq", splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd,
     transpose transpose::transpose_f64x8, narrower F64x4,
     add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd,
     mul_add _mm512_fmadd_pd, sqrt _mm512_sqrt_pd, max _mm512_max_pd, min _mm512_min_pd,
@@ -422,7 +401,7 @@ register_512! {
         let e = (-(x * y)).mul_add(y, Self::splat(1.0));
         y.mul_add(e * Self::splat(0.5), y)
     },
-    features "avx512f,avx512dq", splat _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps,
+    features "avx512f,avx512dq", splat _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps,
     transpose transpose::transpose_f32x16, narrower F32x8,
     add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
     mul_add _mm512_fmadd_ps, sqrt _mm512_sqrt_ps, max _mm512_max_ps, min _mm512_min_ps,
@@ -564,7 +543,7 @@ register_256! {
         (Self(_mm256_castsi256_pd(m)), Self(_mm256_castsi256_pd(e)) - rounding)
     },
     xor _mm256_xor_pd, and_not _mm256_andnot_pd,
-    features "avx2,fma", splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd, stream _mm256_stream_pd,
+    features "avx2,fma", splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
     transpose transpose::transpose_f64x4, narrower f64,
     add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, div _mm256_div_pd,
     mul_add _mm256_fmadd_pd, sqrt _mm256_sqrt_pd, max _mm256_max_pd, min _mm256_min_pd,
@@ -597,7 +576,7 @@ register_256! {
         (Self(_mm256_castsi256_ps(m)), Self(_mm256_cvtepi32_ps(exponent)))
     },
     xor _mm256_xor_ps, and_not _mm256_andnot_ps,
-    features "avx2,fma", splat _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps, stream _mm256_stream_ps,
+    features "avx2,fma", splat _mm256_set1_ps, load _mm256_loadu_ps, store _mm256_storeu_ps,
     transpose transpose::transpose_f32x8, narrower f32,
     add _mm256_add_ps, sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps,
     mul_add _mm256_fmadd_ps, sqrt _mm256_sqrt_ps, max _mm256_max_ps, min _mm256_min_ps,

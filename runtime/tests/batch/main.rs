@@ -260,9 +260,6 @@ fn check_bits<E: Kernels>(energy: &dyn TileMaterial<E>, filter: Filter) {
         let expected = bits(Layout::Points, &points, COUNT);
         for (layout, variant) in [
             (Layout::Lines, batch),
-            (Layout::Points, batch.with_streams(true)),
-            (Layout::Lines, batch.with_streams(true)),
-            (Layout::Lines, batch.with_streams(true).with_threads(true)),
             (Layout::Points, batch.with_threads(true)),
             (Layout::Lines, batch.with_threads(true)),
         ] {

@@ -15,7 +15,6 @@ fn batches() {
         let mut batch = Batch::new(&rubber)
             .with_layout(hostile.one_of(&[Layout::Points, Layout::Lines]))
             .with_filter(hostile.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute]))
-            .with_streams(hostile.0.once_in(2))
             .with_threads(hostile.0.once_in(2));
         if hostile.0.once_in(2) {
             batch = batch.with_statuses(&statuses);
