@@ -34,7 +34,7 @@ pub(in crate::step) enum Choice {
 /// Method of a solver, with its memory.
 #[derive(Clone)]
 enum Method {
-    Assembled(Assembled),
+    Assembled(Box<Assembled>),
     Conjugate(Box<Conjugate>),
 }
 
@@ -50,7 +50,7 @@ impl OneMachine {
         let assembled = |solver: Box<dyn AnySolver>| -> Result<_, LinearError> {
             let stiffness = NodalStiffness::new(body, pairs, true)?;
             let assembled = Assembled::new(&stiffness, pins, solver)?;
-            Ok((stiffness, assembled.matrix.free_nodes().to_vec(), Method::Assembled(assembled)))
+            Ok((stiffness, assembled.matrix.free_nodes().to_vec(), Method::Assembled(Box::new(assembled))))
         };
         let (stiffness, free, method) = match &choice {
             Choice::Setting(LinearSolver::Automatic) => {
