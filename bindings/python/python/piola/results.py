@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import json
+import re
 import unicodedata
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
@@ -82,9 +83,21 @@ class Fit(NamedTuple):
     """Why other parameters might do as well, or better."""
 
 
+# Words of warnings of a fit in Rust, and the keywords of `Material.fit`.
+_KEYWORDS = (
+    (r"\blambda\b", "lambda_"),
+    (r"`--hold (\w+)`, `FitSettings::held`", r'`held=["\1"]`'),
+    (r"`--floor 0.05` \(`FitSettings::floor`\)", "`floor=0.05`"),
+    (r"`--absolute` \(a floor of 1\)", "`relative=False`"),
+    (r"`--compressible`, `FitSettings::volume`", "`incompressible=False`"),
+)
+
+
 def fitted(*fields):
     """A `Fit`, whose warnings are warnings of Python, too."""
     fit = Fit(*fields)
+    for words, keyword in _KEYWORDS:
+        fit.warnings[:] = [re.sub(words, keyword, warning) for warning in fit.warnings]
     for warning in fit.warnings:
         warnings.warn(warning, stacklevel=2)
     return fit
