@@ -97,7 +97,8 @@ def test_masked_entries_are_nan(rubber, F):
     P = rubber.stress(F)
     assert type(rubber.stress(masked)) is np.ndarray and np.array_equal(rubber.stress(masked), P)
     masked[0, 0, 0] = np.ma.masked
-    for given in (masked, list(masked), masked.astype(np.float32), masked.astype(object)):
+    rows = [tuple(matrix) for matrix in masked]
+    for given in (masked, list(masked), rows, masked.astype(np.float32), masked.astype(object)):
         status = np.zeros(len(F), np.uint8)
         found = rubber.stress(given, status=status)
         assert np.isnan(found[0]).all() and close(found[1:], P[1:], 1e-5)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import json
+import re
 import unicodedata
 import warnings
 from typing import TYPE_CHECKING, NamedTuple
@@ -82,9 +83,21 @@ class Fit(NamedTuple):
     """Why other parameters might do as well, or better."""
 
 
+# Words of warnings of a fit in Rust, and the keywords of `Material.fit`.
+_KEYWORDS = (
+    (r"\blambda\b", "lambda_"),
+    (r"`--hold (\w+)`, `FitSettings::held`", r'`held=["\1"]`'),
+    (r"`--floor 0.05` \(`FitSettings::floor`\)", "`floor=0.05`"),
+    (r"`--absolute` \(a floor of 1\)", "`relative=False`"),
+    (r"`--compressible`, `FitSettings::volume`", "`incompressible=False`"),
+)
+
+
 def fitted(*fields):
     """A `Fit`, whose warnings are warnings of Python, too."""
     fit = Fit(*fields)
+    for words, keyword in _KEYWORDS:
+        fit.warnings[:] = [re.sub(words, keyword, warning) for warning in fit.warnings]
     for warning in fit.warnings:
         warnings.warn(warning, stacklevel=2)
     return fit
@@ -134,14 +147,21 @@ class Stability(NamedTuple):
 
 
 def as_array(given):
-    """`numpy.asarray`, with NaN for masked entries, of an array or of the arrays in a list, and numbers for objects."""
+    """`numpy.asarray`, with NaN for masked entries, of an array or of the arrays in lists, and numbers for objects."""
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
         given = (given.astype(float) if given.dtype.kind in "iub" else given).filled(np.nan)
-    elif isinstance(given, (list, tuple)) and any(isinstance(array, np.ma.MaskedArray) for array in given):
+    elif isinstance(given, (list, tuple)) and _has_masked_array(given):
         given = [as_array(array) for array in given]
     array = np.asarray(given)
     # Objects that are numbers to Python, such as fractions.
     return np.asarray(np.frompyfunc(float, 1, 1)(array), float) if array.dtype == object else array
+
+
+def _has_masked_array(given):
+    """True for a masked array, and for a list with one in it, at any depth."""
+    if isinstance(given, (list, tuple)):
+        return any(map(_has_masked_array, given))
+    return isinstance(given, np.ma.MaskedArray)
 
 
 def as_identifiers(text):
