@@ -99,7 +99,8 @@ impl Place {
     /// The place of tokens; `None` for those that stand nowhere in the text.
     fn of(text: &str, span: Span) -> Option<Self> {
         let (start, end) = (span.start(), span.end());
-        if span.byte_range().is_empty() {
+        // An empty place elsewhere is that of text that makes no tokens.
+        if span.byte_range() == (0..0) {
             return None;
         }
         let line = text.lines().nth(start.line.checked_sub(1)?)?;

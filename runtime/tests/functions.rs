@@ -36,9 +36,9 @@ pub fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> 
     mu * f(I1b - 2.0) + kappa / 2.0 * (J - 1.0).powi(2)
 }
 
-/// φ(x) = x + x^(3/2) for x > 0.
+/// φ(x) = x + x^(3/2) for x > 0, and a factor of φ″, 1 if it is right.
 #[derive(Clone, Debug, PartialEq)]
-struct Root;
+struct Root(f64);
 
 impl Univariate for Root {
     fn admits<R: Real>(&self, x: R) -> R::Mask {
@@ -51,7 +51,7 @@ impl Univariate for Root {
         R::splat(1.0) + R::splat(1.5) * x.sqrt()
     }
     fn second_derivative<R: Real>(&self, x: R) -> R {
-        R::splat(0.75) / x.sqrt()
+        R::splat(0.75 * self.0) / x.sqrt()
     }
 }
 
@@ -89,7 +89,14 @@ fn in_sums() -> InSums<2> {
 }
 
 piola::contract!(by_invariants: locking(), range: (0.5, 2.2));
-piola::contract!(of_excess: OfExcess::new(2.0, 50.0, Root)?);
+piola::contract!(of_excess: OfExcess::new(2.0, 50.0, Root(1.0))?);
+
+#[test]
+fn a_derivative_of_a_function_that_does_not_fit_breaks_the_contract() {
+    let wrong = OfExcess::new(2.0, 50.0, Root(1.5)).expect("a material");
+    let broken = piola::contract::check(&wrong, &Default::default()).expect_err("a factor").to_string();
+    assert!(broken.contains("tangent_slope"), "{broken}");
+}
 
 /// I1b − 3 in tension at constant volume.
 fn excess(l: f64) -> f64 {
@@ -116,7 +123,7 @@ fn a_material_ends_where_its_function_does() {
 
 #[test]
 fn a_function_of_the_excess_is_defined_at_rest_and_at_dilations() {
-    let solid = OfExcess::new(2.0, 50.0, Root).expect("a material");
+    let solid = OfExcess::new(2.0, 50.0, Root(1.0)).expect("a material");
     for k in 0..1000 {
         let a = 0.5 + 1.5 * f64::from(k) / 999.0;
         assert!(solid.admits([a; 3]) && solid.admits([a as f32; 3]), "{a}");
@@ -157,7 +164,7 @@ fn an_extension_continues_the_arguments_of_a_function_and_not_the_function() {
 
 #[test]
 fn a_function_of_a_stretch_may_end_at_zero() {
-    let solid = OfStretches::new(1.0, Root).expect("a material");
+    let solid = OfStretches::new(1.0, Root(1.0)).expect("a material");
     assert!(solid.ends_at_zero_volume() && !solid.admits([1.0, 1.0, -1e-300f64]));
     assert!(!locking().has_pole() && locking().ends_at_zero_volume());
 }

@@ -113,6 +113,19 @@ def test_the_order_of_nodes_carries_no_physics(rubber, beam, rng):
         assert body.energy(x) == right.energy(x)
 
 
+def test_meshes_may_be_arrays_of_any_type(rubber, beam, rng):
+    points, tets = beam
+    x = wobbly(points, rng)
+    energy = piola.Body(points, tets, rubber, 1000.0).energy(x)
+    for nodes in (np.asfortranarray(points), points.tolist(), points.astype(">f8")):
+        for corners in (tets.astype(np.int32), tets.astype(np.uint64), np.asfortranarray(tets), tets.tolist()):
+            assert piola.Body(nodes, corners, rubber, 1000.0).energy(x) == energy
+    single = piola.Body(points.astype(np.float32), tets, rubber, 1000.0)
+    assert single.energy(x) == pytest.approx(energy, rel=1e-4)
+    with pytest.raises(ValueError, match=r"points has the shape \(3, 20\); it must be \(n, 3\)"):
+        piola.Body(points.T, tets, rubber, 1000.0)
+
+
 def test_numbers_of_nodes_from_1_and_loose_nodes_are_named(rubber, beam):
     points, tets = beam
     with pytest.raises(piola.BodyError, match="the 20 nodes are numbered from 0; here they are from 1: subtract 1"):

@@ -135,6 +135,20 @@ def test_whatever_numpy_makes_numbers_of_is_taken(rubber):
     assert np.array_equal(rubber.stress(columns.tolist(), trailing=True)[..., 4], P)
 
 
+def test_tables_of_pandas_are_arrays(rubber, F):
+    pandas = pytest.importorskip("pandas")
+    P = rubber.stress(F)
+    assert np.array_equal(rubber.stress(pandas.DataFrame(F[0])), P[0])
+    for index in (None, np.arange(len(F))[::-1]):
+        mu = pandas.Series(np.full(len(F), MU), index=index)
+        assert close(piola.Material("neo_hookean", mu=mu, lambda_=LAMBDA).stress(F), P)
+    for given, shape in ((pandas.DataFrame(F.reshape(-1, 9)), "9"), (F[..., :2, :2], "2, 2")):
+        with pytest.raises(ValueError, match=rf"F has the shape \({len(F)}, {shape}\); it must be \(..., 3, 3\)"):
+            rubber.stress(given)
+    with pytest.raises(TypeError, match="F is of type Series; it must be real numbers"):
+        rubber.stress(pandas.Series(list(F)))
+
+
 def test_what_is_no_number_is_refused(rubber):
     ragged = [[1.0, 0, 0], [0, 1.0], [0, 0, 1.0]]
     text = [["1", "0", "0"]] * 3

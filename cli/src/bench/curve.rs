@@ -45,7 +45,7 @@ pub(crate) struct Curve {
     #[arg(conflicts_with_all = ["from", "to", "rows"])]
     at: Vec<f64>,
 
-    /// Keep the volume constant, regardless of the bulk modulus; a compressibility such as D1 may be 0.
+    /// Keep the volume constant, regardless of the bulk modulus; a compressibility may be 0, as in D1=0/MPa.
     #[arg(long)]
     incompressible: bool,
 

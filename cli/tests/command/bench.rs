@@ -77,6 +77,8 @@ fn readings_are_weighted_and_chosen_as_asked() {
     folder.write("round.txt", format!("stretch\tnominal stress (kgf/cm2)\n{kgf}"));
     let (_, rows) = deck.split_once("*Uniaxial Test Data\n").expect("a block");
     folder.write("foam.csv", format!("stress [MPa],strain,lateral strain\n{rows}"));
+    folder.write("stretch.csv", "strain,stress [kPa]\n1,0\n1.5,200\n2,350\n");
+    folder.write("book.xls", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1\0\0");
     let fit = |material: &str, data: &str| format!("fit {material} --mode uniaxial --data {data}");
     for (data, words) in [
         ("cycles.csv", "cycles.csv: uniaxial turns 3 times, and scatters by 10 %"),
@@ -84,6 +86,8 @@ fn readings_are_weighted_and_chosen_as_asked() {
         ("cycles.csv --cycle 0", "there is no cycle 0"),
         ("square.txt --data noise.csv", "square.txt, noise.csv: uniaxial turns 2 times"),
         ("foam.inp", "foam.inp:8: this is an input deck"),
+        ("stretch.csv", "stretch.csv: uniaxial begins with 0 Pa at λ = 2, far from rest"),
+        ("book.xls", "book.xls:1: this is UTF-16, or not text but an archive, as spreadsheets are"),
     ] {
         assert_contains(&folder.refusal(&fit("neo_hookean", data)), &[words]);
     }
@@ -183,11 +187,12 @@ fn compressibilities_have_units() {
     let curve = "curve --at 1 --energy 'C10*(I1b - 3) + (J - 1)^2/D1' --param C10=0.2MPa --param D1=0.1/MPa";
     let folder = Folder::new();
     assert_contains(&folder.answer(curve), &["μ = 400 kPa, K = 20 MPa, ν = 0.4901"]);
-    // Ogden's energy in the notation of Abaqus with μ = 160, 40 MPa and α = 2, −2: P = 315 MPa.
-    let kept = "curve --mode uniaxial --at 2 --energy 'C10*(I1b - 3) + C01*(I2b - 3) + (J - 1)^2/D1' \
-                --param C10=80MPa --param C01=20MPa --param D1=0";
+    // Ogden's energy in the notation of Abaqus: 315, 630 and 375 MPa by mpmath, uniaxial to pure shear.
+    let kept = "curve --at 2 --energy 'sum(p, 2*mu[p]/alpha[p]^2*(l1bar^alpha[p] + l2bar^alpha[p] + l3bar^alpha[p] \
+                - 3)) + (J - 1)^2/D1' --param mu=160MPa,40MPa,0 --param alpha=2,-2,1 --param D1=0";
     let text = folder.answer(&format!("{kept} --incompressible"));
-    assert_contains(&text, &["--param D1=0\n", "μ = 200 MPa; the volume is kept\n", "3.15000e8"]);
+    assert_contains(&text, &["--param D1=0\n", "μ = 200 MPa; the volume is kept\n"]);
+    assert_contains(&text, &["3.15000e8", "6.30000e8", "3.75000e8"]);
     assert_contains(&folder.refusal(kept), &["as a compressibility of 0 does"]);
 }
 

@@ -66,6 +66,13 @@ fn the_contract_is_checked_without_a_crate() {
     assert_eq!(output.status.code(), Some(1));
     assert_contains(&stderr(&output), &["does not keep the contract", "single_precision"]);
     assert_contains(&folder.answer("contract gent"), &["gent keeps the contract"]);
+    // The remedy that works, and no other, where an exponential overflows in its extension.
+    let steep = "contract --energy 'mu/(2*b)*(exp(b*(I1b - 3)) - 1) + k/2*(J - 1)^2' --param mu=1e5 --param b=0.5 \
+                 --param k=1e7";
+    let told = stderr(&folder.piola(&format!("{steep} --extend 0.1")));
+    assert_contains(&told, &["does not keep the contract", "choose a greater `epsilon`"]);
+    assert!(!told.contains("see the rule `domain`"), "{told}");
+    assert_contains(&folder.answer(&format!("{steep} --extend 0.3")), &["below 0.3, it does as well"]);
 }
 
 /// The parameters of the example are those that were given, or typical ones.
@@ -104,4 +111,7 @@ fn mistakes_are_told_at_their_places() {
     let message = refusal("curve --energy 'mu/2*(I1 - 3)' --param mu=1");
     assert_contains(&message, &["`- mu*ln(J)`", "the option `--free-rest`"]);
     assert_contains(&refusal("curve nowhere.rs"), &["nowhere.rs: cannot be read"]);
+    let folder = Folder::new();
+    folder.write("open.rs", "#[material]\nfn A([l1, l2, l3]: [f64; 3], m: f64) -> f64 { m * (I1b - 3.0 }\n");
+    assert_contains(&folder.refusal("curve open.rs"), &["--> open.rs:2:"]);
 }

@@ -181,8 +181,10 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
     for (mesh, unit) in [(&in_mm, "mm"), (&BLOCK.replace("0.0", ""), "cm")] {
         let (said, other) = surface(mesh, &format!("--unit {unit}"));
         assert!(!said.contains("warning") && other == metres, "{unit}: {said}");
+        assert_contains(&said, &["0.02 m along x, 0.02 m along y, 0.04 m along z; 1.6e-5 m³, 0.016 kg\n"]);
     }
     let (said, _) = surface(&in_mm, "");
+    assert_contains(&said, &["  20 m along x, 20 m along y, 40 m along z; "]);
     assert!(said.contains("warning: the body is 40 m long") && said.contains("--unit mm"), "{said}");
     let (said, _) = surface(&BLOCK.replace("0.0", "0.0000"), "");
     assert!(said.contains("warning: the body is 0.00004 m long"), "{said}");

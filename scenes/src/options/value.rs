@@ -30,14 +30,14 @@ impl Given {
 }
 
 /// Reads `NAME=V,V,V`, with or without a unit after the last value, which is that of all, or after each: a
-/// unit of stress, or one by a unit of stress as in `2e-5/MPa` and `2e-5 1/MPa`.
+/// unit of stress, or one by a unit of stress as in `2e-5/MPa` and `2e-5 1/MPa`. A last 0 needs none.
 ///
 /// # Errors
 /// Description of the mistake, with a correction.
 pub fn parameter(text: &str) -> Result<Given, String> {
     let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
     let values: Vec<_> = values.split(',').map(value).collect::<Result<_, _>>()?;
-    let common = values.last().and_then(|(_, unit)| *unit);
+    let common = values.iter().rfind(|(value, unit)| unit.is_some() || *value != 0.0).and_then(|last| last.1);
     let unit = |(_, own): &(f64, Option<(Unit, f64)>)| own.or(common);
     if common.is_none() && values.iter().any(|(_, own)| own.is_some()) {
         return Err("the last value has no unit; write one after it, or after each".into());
@@ -123,6 +123,8 @@ mod tests {
         assert_eq!(read("mu=60psi").map(|(_, values)| values), Ok(vec![60.0 * 6_894.757_293_168_361]));
         assert_eq!(read("mu=0.4 N/mm²"), Ok(("mu".into(), vec![0.4e6])));
         assert_eq!(read("mu=1MPa,2kPa"), Ok(("mu".into(), vec![1e6, 2e3])));
+        assert_eq!(read("mu=160MPa,40MPa,0"), Ok(("mu".into(), vec![160e6, 40e6, 0.0])));
+        assert_eq!(read("mu=0,0"), Ok(("mu".into(), vec![0.0, 0.0])));
         assert_eq!(modulus("20MPa"), Ok(2e7));
         assert!(modulus("20/MPa").is_err_and(|error| error.contains("by a stress")));
         assert!(parameter("mu=1MPa,2/kPa").is_err_and(|error| error.contains("two kinds")));
