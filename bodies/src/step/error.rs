@@ -141,10 +141,10 @@ pub enum NewtonError {
         term: Option<usize>,
     },
     /// The answer of a user-defined linear solver is no closer to the solution of A x = b than x = 0, in the
-    /// norm of A.
+    /// norm of A, also with inertia added to A.
     #[error(
-        "the linear solver does not solve A x = b, or overlooks that A is not positive definite: ‖b − A x‖ is \
-         {} times ‖b‖; `LowerTriangle::multiply` computes A x",
+        "the linear solver does not solve A x = b, not even with inertia added: ‖b − A x‖ is {} times ‖b‖; \
+         `LowerTriangle::multiply` computes A x",
         number(*residual)
     )]
     NotSolved {

@@ -234,9 +234,10 @@ impl<M: Machine> Minimisation<'_, M> {
         self.workspace.machine.nodes().total(self.objective.noise(self.x))
     }
 
-    /// Checks that the energies of each term and of the materials change along ±d as their gradients predict,
-    /// after [`Minimisation::set_base`]. Overwrites g and the trial.
-    pub(super) fn demand_true_gradients(&mut self) -> Result<(), NewtonError> {
+    /// Checks that the energies of each term and of the materials change along ±d, up to the
+    /// [longest step](Self::longest_step), as their gradients predict, after [`Minimisation::set_base`].
+    /// Overwrites g and the trial.
+    pub(super) fn demand_true_gradients(&mut self, longest: f64) -> Result<(), NewtonError> {
         let Self { objective: Objective { elastic, body, terms, .. }, workspace, x, .. } = self;
         let NewtonWorkspace { machine, gradient, direction, trial } = &mut **workspace;
         for term in (0..terms.others.len()).map(Some).chain([None]) {
@@ -252,7 +253,7 @@ impl<M: Machine> Minimisation<'_, M> {
                 }),
             };
             let total = |own| machine.nodes().totals(own);
-            if contradiction(x, direction, [trial, gradient], total, evaluate).is_some() {
+            if contradiction(x, (direction, longest), [trial, gradient], total, evaluate).is_some() {
                 return Err(NewtonError::WrongGradient { term });
             }
         }

@@ -159,7 +159,7 @@ impl<M: Machine> Newton<'_, '_, M> {
                 let is_noise = difference.abs() <= noise;
                 // The slope predicts a decrease above noise that no trial shows.
                 if is_noise && -slope * first > MARGIN * noise {
-                    self.minimisation.demand_true_gradients()?;
+                    self.minimisation.demand_true_gradients(first)?;
                     self.minimisation.change(step);
                 }
                 self.minimisation.accept();
@@ -171,7 +171,7 @@ impl<M: Machine> Newton<'_, '_, M> {
             Outcome::Failed { step, refused } => {
                 self.report.refused_trials += refused;
                 if -slope > self.minimisation.reject() {
-                    self.minimisation.demand_true_gradients()?;
+                    self.minimisation.demand_true_gradients(first)?;
                     let residual = self.report.residual;
                     return Err(NewtonError::LineSearch { step, refused, residual });
                 }

@@ -77,42 +77,50 @@ impl Assembled {
             objective.blocks.add_to_triangle(matrix);
             matrix.hold(held);
             unknowns.copy_from_slice(right);
-            match solver.solve_any(matrix, unknowns, tolerance.min(TOLERANCE)) {
-                Ok(iterations) => break iterations,
-                Err(LinearError::NotPositive { .. }) if must_be_definite => {
-                    return Ok(None);
-                }
-                Err(LinearError::NotPositive { .. }) if shift < 1e12 => {
-                    shift = if shift == 0.0 { 1.0 } else { 10.0 * shift }
-                }
+            let error = match solver.solve_any(matrix, unknowns, tolerance.min(TOLERANCE)) {
+                Ok(_) if unknowns.iter().any(|x| !x.is_finite()) => return Err(NewtonError::NotFinite),
+                Ok(iterations) => match unsolved(matrix, right, unknowns, product)? {
+                    None => break iterations,
+                    // It may have overlooked that the matrix is not definite, or not to working precision.
+                    Some(residual) => NewtonError::NotSolved { residual },
+                },
                 Err(LinearError::NotPositive { column }) => {
                     // A user-defined solver may name any column.
                     let node = matrix.free_nodes().get(column / 3).copied().unwrap_or(0);
-                    return Err(NewtonError::NotPositive { node, shift });
+                    NewtonError::NotPositive { node, shift }
                 }
                 Err(error) => return Err(error.into()),
+            };
+            if must_be_definite {
+                return Ok(None);
             }
+            if shift >= 1e12 {
+                return Err(error);
+            }
+            shift = if shift == 0.0 { 1.0 } else { 10.0 * shift };
         };
-        if unknowns.iter().any(|x| !x.is_finite()) {
-            return Err(NewtonError::NotFinite);
-        }
-        matrix.multiply(unknowns, product)?;
-        let [mut residual, mut size, mut energy] = [0.0_f64; 3];
-        for ((&b, &x), &product) in right.iter().zip(&*unknowns).zip(&*product) {
-            residual += (b - product).powi(2);
-            size += b * b;
-            energy += x * (0.5 * product - b);
-        }
-        // ½ xᵀA x − bᵀx < 0 for an x that is closer than 0 to the solution, in the norm of A, as are all
-        // iterates of conjugate gradients: a limit of iterations is no mistake.
-        if energy >= 0.0 && size > 0.0 {
-            // A solver that overlooks an indefinite matrix may be right about its system.
-            let wrong = NewtonError::NotSolved { residual: (residual / size).sqrt() };
-            return if must_be_definite { Ok(None) } else { Err(wrong) };
-        }
         for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.free_nodes()) {
             direction[node] = [unknown[0], unknown[1], unknown[2]];
         }
         Ok(Some(Solution { shift, iterations, ..Solution::default() }))
     }
+}
+
+/// ‖b − A x‖/‖b‖, if x is no closer to the solution of A x = b than x = 0 in the norm of A.
+fn unsolved(
+    matrix: &LowerTriangle,
+    b: &[f64],
+    x: &[f64],
+    product: &mut [f64],
+) -> Result<Option<f64>, LinearError> {
+    matrix.multiply(x, product)?;
+    let [mut residual, mut size, mut energy] = [0.0_f64; 3];
+    for ((&b, &x), &product) in b.iter().zip(x).zip(&*product) {
+        residual += (b - product).powi(2);
+        size += b * b;
+        energy += x * (0.5 * product - b);
+    }
+    // ½ xᵀA x − bᵀx < 0 for an x that is closer than 0, as are all iterates of conjugate gradients: a limit
+    // of iterations is no mistake.
+    Ok((energy >= 0.0 && size.is_normal()).then(|| (residual / size).sqrt()))
 }

@@ -22,13 +22,12 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as close as possible. Returns the number of
     /// iterations, 0 for a direct solver.
     ///
-    /// If x is no closer to the solution than x = 0, in the norm of A, eigenvalues are clamped if they are
-    /// not yet, and otherwise the step ends with
-    /// [`NewtonError::NotSolved`](crate::step::NewtonError::NotSolved).
+    /// If A is not positive definite, or x is no closer to the solution than x = 0 in the norm of A, the
+    /// solver is called again, with eigenvalues clamped or with inertia added. If that does not help, the
+    /// step ends with [`NewtonError::NotSolved`](crate::step::NewtonError::NotSolved).
     ///
     /// # Errors
-    /// [`LinearError::NotPositive`] if A is not positive definite: the solver is then called again, with
-    /// eigenvalues clamped or with inertia added. Other errors end the step.
+    /// [`LinearError::NotPositive`] if A is not positive definite. Other errors end the step.
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
 }
 

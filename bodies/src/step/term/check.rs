@@ -44,7 +44,7 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
         let (node, c) = (k / 3, k % 3);
         d.fill([0.0; 3]);
         d[node][c] = reach;
-        let contradicted = contradiction(x, &d, [&mut to, &mut gradient], identity, |to, gradient| {
+        let contradicted = contradiction(x, (&d, 1.0), [&mut to, &mut gradient], identity, |to, gradient| {
             term.change(x, to).inspect(|_| term.add_gradient(to, gradient))
         });
         if let Some(slopes) = contradicted {
@@ -60,7 +60,7 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
     for _ in 0..8 {
         d.as_flattened_mut().iter_mut().for_each(|d| *d = reach * random.uniform(-1.0, 1.0));
         let mut start = None;
-        let contradicted = contradiction(x, &d, [&mut to, &mut curved], identity, |to, curved| {
+        let contradicted = contradiction(x, (&d, 1.0), [&mut to, &mut curved], identity, |to, curved| {
             term.energy(to)?;
             gradient.fill([0.0; 3]);
             term.add_gradient(to, &mut gradient);
@@ -82,7 +82,8 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
     Ok(())
 }
 
-/// Mean slope of an energy over a step along d and its difference quotient, if these disagree.
+/// Mean slope of an energy over a step along d, at most `longest`, and its difference quotient, if these
+/// disagree.
 ///
 /// `evaluate` returns the change of the energy from x to a position, `None` outside its domain, and adds the
 /// gradient there; `total` adds numbers of all machines. Position and gradient are memory.
@@ -92,7 +93,7 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
 /// disagree.
 pub(crate) fn contradiction(
     x: &[[f64; 3]],
-    d: &[[f64; 3]],
+    (d, longest): (&[[f64; 3]], f64),
     [position, gradient]: [&mut [[f64; 3]]; 2],
     total: impl Fn([f64; 4]) -> [f64; 4],
     mut evaluate: impl FnMut(&[[f64; 3]], &mut [[f64; 3]]) -> Option<EnergyChange>,
@@ -123,6 +124,7 @@ pub(crate) fn contradiction(
     };
     let mut before = None;
     [1.0, 1.0 / 64.0, 2e-4, 4e-6].into_iter().find_map(|step| {
+        let step = step * longest;
         let found = disagree(-step).and_then(|_| disagree(step));
         std::mem::replace(&mut before, found).and(found)
     })
