@@ -90,7 +90,8 @@ fn read_part(
     }
     let index = lowered(character);
     if index.is_some() || character == '_' {
-        let is_behind_power = text.trim_end_matches(|c: char| is_digit(c) || c == '-').ends_with('^');
+        let base = text.trim_end_matches(|c: char| is_digit(c) || "- ".contains(c));
+        let is_behind_power = base.ends_with('^') || base.ends_with("**");
         if is_behind_power || raised(before).is_some() || text.ends_with(')') {
             return Err("an index stands before the exponent, as in `I_1^2`");
         }

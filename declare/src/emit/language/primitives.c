@@ -2,9 +2,6 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#if {is_wide}
-#error "compile with arithmetic in the format itself (-msse2 -mfpmath=sse)"
-#endif
 //@ head of cuda
 #if !defined(__CUDACC_RTC__) && !defined(__HIPCC_RTC__) && !defined(WP_NO_CRT)
 #include <math.h>
@@ -27,6 +24,12 @@
 #error "build without -cl-fast-relaxed-math, -cl-unsafe-math-optimizations, -cl-finite-math-only"
 //@ head
 #endif
+//@ head of c
+/* clang 15 and later also have -1 for options that the pragma below switches off. */
+#if ({is_wide}) && !(FLT_EVAL_METHOD == -1 && defined(__clang__) && defined(__x86_64__))
+#error "compile without -ffast-math and its parts, and with arithmetic in the format itself (-msse2 -mfpmath=sse)"
+#endif
+//@ head
 /* clang has no macros for most of these options, and ignores this pragma for other processors. */
 #if (defined(__clang__) ? defined(__x86_64__) : defined(_MSC_VER)) && \
     !defined(__CUDA_ARCH__) && !defined(__HIP_DEVICE_COMPILE__)

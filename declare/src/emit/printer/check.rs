@@ -20,12 +20,13 @@ impl Printer<'_> {
         let mut all = Vec::new();
         // Each with what is said of it, statements before it, and the condition under which all is well. The
         // others mean something only with the arithmetic that the first tests.
-        let start = self.parameters.first().map_or_else(String::new, |place| language.start(place));
         let meaning = "options of the compiler change sums or comparisons, see above".to_owned();
-        let mut cases = vec![(meaning, start, format!("{}_is_exact()", file.prefix))];
+        let mut cases = vec![(meaning, String::new(), format!("{}_is_exact()", file.prefix))];
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let numbers: Vec<_> = places.by_ref().take(values.len()).cloned().collect();
             if !matches!(parameter.form, Form::Exponent | Form::Exponents) && !numbers.is_empty() {
+                // Whole exponents have no place in the structure.
+                cases[0].1 = language.start(&numbers[0]);
                 let finite: Vec<_> = numbers.iter().map(|place| language.is_finite(place)).collect();
                 let meaning = format!("{name} is not finite");
                 cases.push((meaning, String::new(), finite.join(" && ")));
