@@ -227,6 +227,7 @@ fn columns_that_are_not_clear_are_listed() {
     refuse("strain,strain_%,stress_Pa\n0.1,10,1\n", UNIAXIAL, 1, &["`strain` and `strain_%` are both"]);
     refuse("true strain,stress_Pa\n0.1,1\n", UNIAXIAL, 1, &["`true stress` or a `nominal stress`"]);
     refuse("strain [%],stress_Pa\nmm/mm,Pa\n0.1,1\n", UNIAXIAL, 1, &["1 `strain [%]`"]);
+    refuse("Strain (1),Stress (True)\n-,Pa\n0.1,1\n", UNIAXIAL, 1, &["no header is a stress"]);
     refuse("mode,stretch,nominal_stress_stone\n", [""; 4], 1, &["nominal_stress_stone", "--stress"]);
     refuse("# by hand\nmode,angle,stress_Pa\n", [""; 4], 2, &["no header is a stretch", "2 `angle`"]);
     for header in ["Strain [mstrain]", "Strain (Strain 1)", "Tensile % strain"] {
