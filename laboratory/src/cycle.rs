@@ -37,8 +37,8 @@ impl Measurements {
     /// control grows.
     ///
     /// # Errors
-    /// A message if points, with rest, scatter by more than 3 % of the greatest stress, root mean square,
-    /// about every such curve; or if they begin without stress far from rest.
+    /// A message if points, with rest if it was not measured, scatter by more than 3 % of the greatest
+    /// stress, root mean square, about every such curve; or if they begin without stress far from rest.
     pub fn check_curves(&self) -> Result<(), String> {
         self.modes().try_for_each(|mode| self.check_curve(mode))
     }
@@ -57,7 +57,8 @@ impl Measurements {
                 "{mode} begins with {begin}, far from rest: are the strains stretches? If not, add rest, without stress"
             ));
         }
-        let mut points: Vec<_> = self.of(mode).chain([&rest]).collect();
+        // A stress at rest is that of a preload.
+        let mut points: Vec<_> = self.of(mode).chain((away(nearest) > 0.0).then_some(&rest)).collect();
         points.sort_by(|a, b| a.control.total_cmp(&b.control).then(b.stress.total_cmp(&a.stress)));
         // The nearest stresses that do not fall are means of neighbours: sums, and numbers of points.
         let mut means: Vec<(f64, f64)> = Vec::new();
@@ -85,8 +86,9 @@ impl Measurements {
             return Err(format!(
                 "{mode} turns {turns} times, and scatters by {percent:.0} % of its greatest stress, with {high} and {low}: this \
                  is not one curve of one solid. Choose one of its cycles or specimens (`--cycle first`, \
-                 `Measurements::cycle`); give each of several materials, temperatures, directions or stretches across by \
-                 itself; leave out what follows rupture; or is a strain a stretch, or a sign wrong?"
+                 `Measurements::cycle`), which is used as it is, also if it is noisy or softens; give each of several \
+                 materials, temperatures, directions or stretches across by itself; leave out what follows rupture; or is a \
+                 strain a stretch, or a sign wrong?"
             ));
         }
         Ok(())

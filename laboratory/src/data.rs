@@ -34,8 +34,8 @@
 //!
 //! * Units stand after the name, in brackets or behind a space, comma, slash or `_`: [`StressUnit`] for
 //!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains. With a unit in the row below, brackets after the name
-//!   may hold something else. Numbers under `compressive strain` and `compressive stress` are positive in
-//!   compression.
+//!   may hold something else, but no other kind, as in `Stress (true)`. Numbers under `compressive strain`
+//!   and `compressive stress` are positive in compression.
 //! * A file with another header, without a header, or with several stresses or strains is refused with the
 //!   list of its columns. [`ReadOptions`] names the columns of the strain and the stress by their headers or
 //!   numbers and, where these do not say it, what they hold.

@@ -227,6 +227,7 @@ fn columns_that_are_not_clear_are_listed() {
     refuse("strain,strain_%,stress_Pa\n0.1,10,1\n", UNIAXIAL, 1, &["`strain` and `strain_%` are both"]);
     refuse("true strain,stress_Pa\n0.1,1\n", UNIAXIAL, 1, &["`true stress` or a `nominal stress`"]);
     refuse("strain [%],stress_Pa\nmm/mm,Pa\n0.1,1\n", UNIAXIAL, 1, &["1 `strain [%]`"]);
+    refuse("Strain (1),Stress (True)\n-,Pa\n0.1,1\n", UNIAXIAL, 1, &["no header is a stress"]);
     refuse("mode,stretch,nominal_stress_stone\n", [""; 4], 1, &["nominal_stress_stone", "--stress"]);
     refuse("# by hand\nmode,angle,stress_Pa\n", [""; 4], 2, &["no header is a stretch", "2 `angle`"]);
     for header in ["Strain [mstrain]", "Strain (Strain 1)", "Tensile % strain"] {
@@ -298,12 +299,13 @@ fn cycles_are_chosen_and_scatter_is_no_second_curve() -> Result<(), DataError> {
     for (cycle, points) in [(1, 0..2), (2, 2..4)] {
         assert_eq!(two.cycle(cycle), Ok(Measurements { points: two.points[points].to_vec() }));
     }
-    // Noise, a wrong reading, rest out of order, tension and compression.
+    // Noise, a wrong reading, rest out of order, tension and compression, a preload.
     let wrong = file("gent.csv").replace("4.03,1.21", "4.03,2.61");
     for text in [&file("noise.csv"), &wrong] {
         assert_eq!(Measurements::read(text)?.check_curves(), Ok(()));
     }
     assert_eq!(read("uniaxial,2,3\nuniaxial,1,0\nuniaxial,0.5,-9\nuniaxial,1.5,2\n")?.check_curves(), Ok(()));
+    assert_eq!(read("uniaxial,1,1\nuniaxial,1.5,5\nuniaxial,2,10\n")?.check_curves(), Ok(()));
     Ok(())
 }
 

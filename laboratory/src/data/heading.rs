@@ -134,14 +134,19 @@ pub(super) fn has_clear_unit(text: &str, unit: Option<Unit>, is_stress: bool) ->
     }
 }
 
+/// Words in brackets by which a stress or a strain is not the one that its name says.
+const KINDS: [&str; 7] = ["true", "log", "logarithmic", "cauchy", "compressive", "shear", "volumetric"];
+
 /// A header without its unit, and the unit: in brackets at the end, which may hold something else, as in
-/// `Strain (Strain 1)`; or behind a space, `_`, `/` or a comma.
+/// `Strain (Strain 1)`, but no other kind; or behind a space, `_`, `/` or a comma.
 fn name_and_unit(text: &str) -> (&str, Option<Unit>) {
     let text = text.trim();
     if let Some(inner) = text.strip_suffix([')', ']'])
-        && let Some(open) = inner.rfind(['(', '['])
+        && let Some((name, inner)) = inner.rsplit_once(['(', '['])
     {
-        return (&text[..open], unit(&inner[open + 1..]));
+        let mut words = inner.split(|c: char| !c.is_alphanumeric());
+        let is_other = words.any(|word| KINDS.iter().any(|kind| word.eq_ignore_ascii_case(kind)));
+        return (if is_other { text } else { name }, unit(inner));
     }
     let mut places = text.match_indices([' ', '_', '/', ',']).filter(|(at, _)| text.len() - at <= LONGEST);
     let split = places.find_map(|(at, _)| {
