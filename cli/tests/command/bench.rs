@@ -64,8 +64,8 @@ fn of_the_laboratory(folder: &Folder, name: &str) -> String {
     text
 }
 
-/// Parameters and scatter by numpy: of a published file in the shapes in which people have it; of a first and a second
-/// loading; of noise near rest; of a table in kgf/cm²; of a foam with μ = 12 kPa, α = 6, β → 0.
+/// Parameters and scatter by numpy: of a published file in the shapes in which people have it; of a first and
+/// a second loading; of noise near rest; of a table in kgf/cm²; of a foam with μ = 12 kPa, α = 6, β → 0.
 #[test]
 fn readings_are_weighted_and_chosen_as_asked() {
     let folder = Folder::new();
