@@ -99,10 +99,10 @@ impl<E: Scalar, S: Site, const HAS_SECOND: bool> Kernel<E> for ByInvariantsAt<'_
             let gradient = gradients.get_all(at);
             let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradient);
             let rest = S::rest(&shapes, at);
+            let is_finite = gradient_is_in_range(gradient) & S::stays_finite(&stress, &rest);
+            finite |= R::bits(is_finite) << at;
             S::put(&stress, &rest, &mut to, line, at);
-            let stays_finite = S::stays_finite(&stress, &rest);
             S::finish::<R>(&mut to, line, at, count);
-            finite |= R::bits(gradient_is_in_range(gradient) & stays_finite) << at;
         });
         finite & first_bits(count)
     }
