@@ -31,7 +31,7 @@ pub(crate) struct Emit {
     name: Option<String>,
 
     /// The functions, separated by commas: energy, stress, tangent, projected, absolute,
-    /// tetrahedron, projected_tetrahedron, blocks, svd [default: all].
+    /// tetrahedron, projected_tetrahedron, vertex, projected_vertex, blocks, svd [default: all].
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
     functions: Vec<PointFunction>,
 

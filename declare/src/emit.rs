@@ -5,13 +5,19 @@
 //! programs of the energy inside; the record is printed. There is no second copy of the mathematics, and the
 //! arithmetic is that of portable lanes, to the last bit.
 
+#![expect(non_snake_case, reason = "F as in the literature")]
+
 mod language;
 mod printer;
+mod signature;
 mod steps;
 
 use std::str::FromStr;
 
-use piola::__private::record::{self, Recorded, RecordedMask, Recording, evaluate_tetrahedron};
+use piola::__private::record::{
+    self, Recorded, RecordedFunction, RecordedMask, Truth, define, evaluate_tetrahedron, evaluate_vertex,
+    record,
+};
 use piola::interpreter::Interpreted;
 use piola::lanes::{Mask, Real};
 use piola::material::{Form, MaterialError, Text};
@@ -19,7 +25,6 @@ use piola::point::{Filter, evaluate_dense, evaluate_energy, evaluate_stress, svd
 use piola::{Inversion, Material, Status};
 
 use crate::energy::Energy;
-use printer::Signature;
 
 /// Languages of emitted source text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,6 +85,11 @@ pub enum PointFunction {
     Tetrahedron,
     /// Gradient and stiffness of a tetrahedron, from dP/dF with its negative eigenvalues clamped to zero.
     ProjectedTetrahedron,
+    /// What belongs to one node of a tetrahedron: the gradient in its position, and its block of the
+    /// stiffness, from F and the node's row of Dm⁻¹.
+    Vertex,
+    /// The same, from dP/dF with its negative eigenvalues clamped to zero.
+    ProjectedVertex,
     /// ψi, ψij, flips and twists from the signed stretches.
     Blocks,
     /// U, the signed stretches and V from F.
@@ -88,7 +98,7 @@ pub enum PointFunction {
 
 impl PointFunction {
     /// All functions, in the order in which they are printed.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Energy,
         Self::Stress,
         Self::Tangent,
@@ -96,6 +106,8 @@ impl PointFunction {
         Self::Absolute,
         Self::Tetrahedron,
         Self::ProjectedTetrahedron,
+        Self::Vertex,
+        Self::ProjectedVertex,
         Self::Blocks,
         Self::Svd,
     ];
@@ -111,6 +123,8 @@ impl PointFunction {
             Self::Absolute => "absolute",
             Self::Tetrahedron => "tetrahedron",
             Self::ProjectedTetrahedron => "projected_tetrahedron",
+            Self::Vertex => "vertex",
+            Self::ProjectedVertex => "projected_vertex",
             Self::Blocks => "blocks",
             Self::Svd => "svd",
         }
@@ -210,10 +224,9 @@ struct File<'a> {
     /// Values of the parameters when the file was printed.
     values: &'a [&'a [f64]],
     inversion: Inversion,
-    functions: Vec<(PointFunction, Recording)>,
-    /// Recording from parameters to the moduli at rest, and to a truth value: the rest state is inside of the
-    /// domain.
-    rest: Recording,
+    wanted: Vec<PointFunction>,
+    /// The wanted functions, what they call, and `at_rest`.
+    functions: Vec<RecordedFunction>,
 }
 
 impl Energy {
@@ -259,12 +272,11 @@ impl Energy {
         let mut wanted = emission.functions.clone();
         wanted.sort_unstable();
         wanted.dedup();
-        // A material keeps what it has computed of its parameters, which belongs to one recording.
-        let fresh = || material.clone_with(material.values().to_vec());
-        let recorded = |one| Some((one, recorded(format, one, &fresh())?));
-        let functions = wanted.into_iter().map(recorded).collect::<Option<Vec<_>>>();
+        let functions = record(format, || {
+            at_rest(&self.without_extension(&material));
+            wanted.iter().for_each(|&function| define_function(function, &material));
+        });
         let functions = functions.ok_or(EmitError::Unrecorded)?;
-        let rest = at_rest(format, &self.without_extension(&fresh())).ok_or(EmitError::Unrecorded)?;
         let values = &values[..];
         Ok(printer::print(&File {
             energy: self,
@@ -273,69 +285,85 @@ impl Energy {
             precision,
             values,
             inversion,
+            wanted,
             functions,
-            rest,
         }))
     }
 }
 
 /// Runs a function of a point once.
-fn recorded(format: record::Format, function: PointFunction, material: &Interpreted) -> Option<Recording> {
-    let count: usize = Signature::of(function).inputs.iter().map(|&(_, count)| count).sum();
-    record::record(format, count, |arguments| {
-        let bits = |status: Status<RecordedMask>| {
-            vec![status.refused, status.bounded, status.nonfinite, status.filtered]
-        };
+fn define_function(function: PointFunction, material: &Interpreted) {
+    let (name, zero) = (function.name(), Recorded::splat(0.0));
+    let F = [[zero; 3]; 3];
+    let failed = |refused, nonfinite| {
         let no = RecordedMask::splat(false);
-        let dense = |filter| {
-            let point = evaluate_dense(material, &matrix(arguments), filter);
-            ([point.stress.as_flattened(), point.tangent.as_flattened()].concat(), bits(point.status))
-        };
-        let tetrahedron = |filter| {
-            let nodes = std::array::from_fn(|node| std::array::from_fn(|a| arguments[3 * node + a]));
-            let rest = std::array::from_fn(|k| arguments[12 + k]);
+        Status { refused, bounded: no, nonfinite, filtered: no }
+    };
+    let dense = |filter| {
+        define(name, F, |F| {
+            let point = evaluate_dense(material, &F, filter);
+            (point.stress, point.tangent, point.status)
+        });
+    };
+    let tetrahedron = |filter| {
+        define(name, ([[zero; 3]; 4], [zero; 10]), |(nodes, rest)| {
             let element = evaluate_tetrahedron(material, nodes, rest, filter);
-            (element.gradient.into_iter().chain(element.stiffness).collect(), bits(element.status))
-        };
-        match function {
-            PointFunction::Energy => {
-                let point = evaluate_energy(material, &matrix(arguments));
-                (vec![point.energy], bits(point.status))
-            }
-            PointFunction::Stress => {
-                let point = evaluate_stress(material, &matrix(arguments));
-                (point.stress.as_flattened().to_vec(), bits(point.status))
-            }
-            PointFunction::Tangent => dense(Filter::None),
-            PointFunction::Projected => dense(Filter::Clamp),
-            PointFunction::Absolute => dense(Filter::Absolute),
-            PointFunction::Tetrahedron => tetrahedron(Filter::None),
-            PointFunction::ProjectedTetrahedron => tetrahedron(Filter::Clamp),
-            PointFunction::Blocks => {
-                let stretches = [arguments[0], arguments[1], arguments[2]];
+            (element.gradient, element.stiffness, element.status)
+        });
+    };
+    let vertex = |filter| {
+        define(name, (F, [zero; 4]), |(F, rest)| {
+            let vertex = evaluate_vertex(material, &F, rest, filter);
+            (vertex.gradient, vertex.stiffness, vertex.status)
+        });
+    };
+    match function {
+        PointFunction::Energy => {
+            define(name, F, |F| {
+                let point = evaluate_energy(material, &F);
+                (point.energy, point.status)
+            });
+        }
+        PointFunction::Stress => {
+            define(name, F, |F| {
+                let point = evaluate_stress(material, &F);
+                (point.stress, point.status)
+            });
+        }
+        PointFunction::Tangent => dense(Filter::None),
+        PointFunction::Projected => dense(Filter::Clamp),
+        PointFunction::Absolute => dense(Filter::Absolute),
+        PointFunction::Tetrahedron => tetrahedron(Filter::None),
+        PointFunction::ProjectedTetrahedron => tetrahedron(Filter::Clamp),
+        PointFunction::Vertex => vertex(Filter::None),
+        PointFunction::ProjectedVertex => vertex(Filter::Clamp),
+        PointFunction::Blocks => {
+            define(name, [zero; 3], |stretches| {
                 let blocks = material.blocks(stretches);
                 let numbers = [&blocks.gradient[..], &blocks.hessian, &blocks.flip, &blocks.twist].concat();
-                let is_finite = all_finite(&numbers);
-                (numbers, vec![!material.admits(stretches), no, !is_finite])
-            }
-            PointFunction::Svd => {
-                let svd = svd(&matrix(arguments));
-                let is_finite = all_finite(&svd.stretches);
-                let numbers = [svd.U.as_flattened(), &svd.stretches, svd.V.as_flattened()].concat();
-                (numbers, vec![no, no, !is_finite])
-            }
+                (
+                    (blocks.gradient, blocks.hessian, blocks.flip, blocks.twist),
+                    failed(!material.admits(stretches), !all_finite(&numbers)),
+                )
+            });
         }
-    })
+        PointFunction::Svd => {
+            define(name, F, |F| {
+                let svd = svd(&F);
+                (svd, failed(RecordedMask::splat(false), !all_finite(&svd.stretches)))
+            });
+        }
+    }
 }
 
 /// Twice the shear modulus and three times the bulk modulus at rest, and true if rest is inside the domain.
-fn at_rest(format: record::Format, material: &Interpreted) -> Option<Recording> {
-    record::record(format, 0, |_| {
+fn at_rest(material: &Interpreted) {
+    define("at_rest", [] as [Recorded; 0], |_| {
         let one = Recorded::splat(1.0);
         let blocks = material.blocks([one; 3]);
         let [h11, _, _, h12, ..] = blocks.hessian;
-        (vec![blocks.flip[0], h11 + h12 + h12], vec![material.admits([one; 3])])
-    })
+        (blocks.flip[0], h11 + h12 + h12, Truth(material.admits([one; 3])))
+    });
 }
 
 fn all_finite<R: Real>(numbers: &[R]) -> R::Mask {
@@ -354,8 +382,4 @@ fn snake_case(name: &str) -> String {
         text.extend(c.to_lowercase());
     }
     text
-}
-
-fn matrix<R: Copy>(rows: &[R]) -> [[R; 3]; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|j| rows[3 * i + j]))
 }

@@ -48,9 +48,10 @@ pub mod random {
 /// Computations as programs, for back ends that print them.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod record {
-    pub use crate::kernels::tetrahedron::evaluate_tetrahedron;
+    pub use crate::kernels::tetrahedron::{evaluate_tetrahedron, evaluate_vertex};
+    pub use crate::lanes::Truth;
     pub use crate::lanes::recorded::program::{
-        Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary,
+        Binary, Format, Id, RecordedFunction, RecordedOperation, RecordedProgram, Unary,
     };
-    pub use crate::lanes::recorded::{Recorded, RecordedMask, parameter, record};
+    pub use crate::lanes::recorded::{Recorded, RecordedMask, define, parameter, record};
 }

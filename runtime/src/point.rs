@@ -17,7 +17,7 @@
 
 #![expect(non_snake_case, reason = "F, P, U, V as in the literature")]
 
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::{Blocks, Response};
 use crate::quotient::pole_floor;
 use crate::status::Status;
@@ -237,7 +237,11 @@ pub(crate) fn entries_are_finite<R: Real>(A: &Matrix3<R>) -> R::Mask {
 /// True if stretches and stress are valid.
 #[inline(always)]
 pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R::Mask {
-    stretches_in_range(stretches) & entries_are_finite(P)
+    let P = *P;
+    stage!(R, "stress_is_finite", (stretches, P) => {
+        Truth(stretches_in_range(stretches) & entries_are_finite(&P))
+    })
+    .0
 }
 
 /// Decomposes F as every evaluation of the material does: with [`svd_signed_by_determinant`] if its domain
@@ -282,5 +286,9 @@ pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
 /// a filter leaves; and the partial sums of [`assemble_blocks`] between rotations stay below four times that.
 #[inline(always)]
 fn tangent_stays_finite<R: Real>(blocks: &Blocks<R>) -> R::Mask {
-    (none_large(blocks.hessian) + none_large(blocks.flip) + none_large(blocks.twist)).is_finite()
+    let Blocks { hessian, flip, twist, .. } = *blocks;
+    stage!(R, "tangent_stays_finite", (hessian, flip, twist) => {
+        Truth((none_large(hessian) + none_large(flip) + none_large(twist)).is_finite())
+    })
+    .0
 }

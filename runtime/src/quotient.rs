@@ -18,7 +18,7 @@ pub use logarithm::{asinh_quotient, ln_1p_quotient, softplus_quotient};
 pub use trigonometric::{atan_quotient, cos_quotient, sin_quotient};
 pub use whole_power::{whole_power, whole_power_quotient};
 
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Real, stage};
 
 /// Two arguments a, b > 0, with the part that the divided differences of ln and of all powers share.
 #[derive(Clone, Copy, Debug)]
@@ -108,10 +108,12 @@ pub fn exp_quotient<R: Real>([a, a_exponential]: [R; 2], [b, b_exponential]: [R;
 /// A factor + B factor, not (A + B) factor: the sum of A and B may overflow.
 #[inline(always)]
 fn difference_of_exponentials<R: Real>([a, b]: [R; 2], v: R, factor: R, apart: R) -> R {
-    let v2 = v * v;
-    let factor = tanhc(v2) * factor;
-    let close = a.mul_add(factor, b * factor);
-    R::select(v2.less(R::splat(0.25)), close, apart)
+    stage!(R, "difference_of_exponentials", (a, b, v, factor, apart) => {
+        let v2 = v * v;
+        let factor = tanhc(v2) * factor;
+        let close = a.mul_add(factor, b * factor);
+        R::select(v2.less(R::splat(0.25)), close, apart)
+    })
 }
 
 /// tanh v / v from v² ≤ ¼, to u/16.
@@ -157,7 +159,12 @@ fn is_double<R: Real>() -> bool {
 /// not. If the product or a part of it overflows or loses digits to underflow, the logarithms are added
 /// instead.
 #[inline(always)]
-pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
+pub fn ln_product<R: Real>(stretches: [R; 3]) -> R {
+    stage!(R, "ln_product", (stretches) => ln_of_product(stretches))
+}
+
+#[inline(always)]
+fn ln_of_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
     let extremes = l1 * l3;
     let product = extremes * l2;
     let smallest = R::splat(R::min_positive());

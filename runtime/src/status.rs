@@ -9,7 +9,7 @@ use std::iter::Sum;
 use std::ops::{Add, BitAnd, BitOr};
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use crate::lanes::Mask;
+use crate::lanes::{Mask, Numbers, Real, Replace};
 
 /// Status of an evaluation: a truth value of each kind for one point, or a mask of each for several points.
 ///
@@ -45,6 +45,14 @@ impl<M: Mask> Status<M> {
     pub(crate) fn clean() -> Self {
         let no = M::splat(false);
         Self { refused: no, bounded: no, nonfinite: no, filtered: no }
+    }
+}
+
+impl<R: Real> Numbers<R> for Status<R::Mask> {
+    fn map(self, to: &mut impl Replace<R>) -> Self {
+        let [refused, bounded, nonfinite, filtered] =
+            [self.refused, self.bounded, self.nonfinite, self.filtered].map(|bit| to.truth(bit));
+        Self { refused, bounded, nonfinite, filtered }
     }
 }
 

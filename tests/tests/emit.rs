@@ -12,6 +12,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
+use piola::__private::record::{evaluate_tetrahedron, evaluate_vertex};
 use piola::batch::{Batch, Kernels, Tetrahedra};
 use piola::lanes::Backend;
 use piola::point::{self, Filter, Matrix3};
@@ -32,6 +33,7 @@ int main(void) {
     const energy_parameters p = ENERGY_EXAMPLE;
     FILE *from = fopen("points", "rb"), *to = fopen("results", "wb");
     const NUMBER rest[10] = REST;
+    const NUMBER node[4] = {rest[3], rest[4], rest[5], rest[9]};
     NUMBER F[9], a[12], b[144], c[9], l[3], x[12] = {0};
     unsigned status = energy_check(&p);
     if (!from || !to || status) return 1;
@@ -48,6 +50,8 @@ int main(void) {
         for (int k = 0; k < 9; k++) x[3 + k] = F[3 * (k % 3) + k / 3];
         status = energy_tetrahedron(&p, x, rest, a, b), PUT(12, a), PUT(144, b), PUT_STATUS;
         status = energy_projected_tetrahedron(&p, x, rest, a, b), PUT(12, a), PUT(144, b), PUT_STATUS;
+        status = energy_vertex(&p, F, node, a, c), PUT(3, a), PUT(9, c), PUT_STATUS;
+        status = energy_projected_vertex(&p, F, node, a, c), PUT(3, a), PUT(9, c), PUT_STATUS;
     }
     return fclose(to);
 }
@@ -119,6 +123,11 @@ fn results<R: Format + Kernels>(energy: &Judged, inversion: Inversion, F: &Matri
         let counts = [survey.refused, survey.bounded, survey.nonfinite, survey.filtered];
         gradient.extend(stiffness);
         all.push((gradient, (0..4).map(|k| (counts[k] as u32) << k).sum()));
+    }
+    let node = [REST[3], REST[4], REST[5], REST[9]].map(R::splat);
+    for filter in [Filter::None, Filter::Clamp] {
+        let at = evaluate_vertex(&subject.exact, F, node, filter);
+        all.push(([&at.gradient[..], at.stiffness.as_flattened()].concat(), bits(at.status)));
     }
     all
 }
@@ -261,7 +270,7 @@ fn mistakes_say_what_to_do() {
     assert_eq!(
         unknown("forces"),
         "unknown function `forces`; known are: energy, stress, tangent, projected, absolute, tetrahedron, \
-         projected_tetrahedron, blocks, svd"
+         projected_tetrahedron, vertex, projected_vertex, blocks, svd"
     );
     assert!("fortran".parse::<Target>().expect_err("unknown").to_string().contains("known are: c"));
     let double = emit(Emission { precision: Precision::F64, ..Emission::new(Target::Wgsl) });
@@ -333,9 +342,70 @@ fn branches_hold_what_only_they_need() {
         let emission = Emission { prefix, functions, ..Emission::new(Target::C) };
         let text = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission).expect("text");
         let (_, body) = text.split_once(&format!("energy_{}(const", function.name())).expect("the function");
-        let inside = body.lines().filter(|line| line.starts_with("        ")).count();
-        let all = body.lines().count();
-        assert!(2 * inside > all, "{function:?}: {inside} of {all}");
+        let (body, _) = body.split_once("\n}\n").expect("its end");
+        let mut calls = body.lines().filter(|line| line.contains("_decomposition"));
+        let call = calls.next().expect("a decomposition");
+        assert!(call.starts_with("        ") && calls.next().is_none(), "{function:?}: {call}");
+    }
+}
+
+/// What belongs to one node is that part of the gradient and of the stiffness of the whole tetrahedron.
+#[test]
+fn a_vertex_is_a_part_of_its_tetrahedron() {
+    let cases = Case::own(&FILES).expect("reference cases");
+    let points: Vec<Matrix3<f64>> = cases.iter().map(Case::F).collect();
+    for name in ["neo_hookean", "st_venant_kirchhoff", "ogden", "stable_neo_hookean"] {
+        let energy = find(name).expect("in the catalogue");
+        let subject = energy.subject(&energy.typical(), Inversion::Refuse).expect("typical parameters");
+        // Dm is the identity, so that the columns of F are the positions of the nodes.
+        let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0; 3]];
+        let mut rest = [0.0; 10];
+        rest[..9].copy_from_slice(rows[..3].as_flattened());
+        rest[9] = 0.375;
+        let mut judged = 0;
+        for F in &points {
+            let positions = std::array::from_fn(|n| match n {
+                0 => [0.0; 3],
+                n => [F[0][n - 1], F[1][n - 1], F[2][n - 1]],
+            });
+            let whole = evaluate_tetrahedron(&subject.exact, positions, rest, Filter::Clamp);
+            let largest = |numbers: &[f64]| numbers.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+            let [force, stiffness] = [largest(&whole.gradient), largest(&whole.stiffness)];
+            for node in 0..4 {
+                let [g1, g2, g3] = rows[(node + 3) % 4];
+                let part = evaluate_vertex(&subject.exact, F, [g1, g2, g3, rest[9]], Filter::Clamp);
+                assert_eq!(part.status.refused, whole.status.refused, "{name} at {F:?}");
+                if !part.status.is_clean() || !whole.status.is_clean() {
+                    continue;
+                }
+                judged += 1;
+                for a in 0..3 {
+                    let difference = part.gradient[a] - whole.gradient[3 * node + a];
+                    assert!(difference.abs() <= 1e-13 * force, "{name} at {F:?}: {difference}");
+                    for c in 0..3 {
+                        let wanted = whole.stiffness[12 * (3 * node + a) + 3 * node + c];
+                        let difference = part.stiffness[a][c] - wanted;
+                        assert!(difference.abs() <= 1e-13 * stiffness, "{name} at {F:?}: {difference}");
+                    }
+                }
+            }
+        }
+        assert!(judged > 2000, "{name}: {judged}");
+    }
+}
+
+/// What `docs/emit.md` shows of a file.
+#[test]
+fn the_page_shows_a_file_as_it_is() {
+    let energy = find("st_venant_kirchhoff").expect("in the catalogue");
+    let functions = vec![PointFunction::Stress, PointFunction::Projected];
+    let emission = Emission { prefix: Some("stvk".into()), functions, ..Emission::new(Target::C) };
+    let text = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission).expect("text");
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/emit.md"));
+    let page = page.expect("the page");
+    let (shared, own) = text.split_at(text.find("typedef struct").expect("the parameters"));
+    for part in [shared, own] {
+        assert!(page.contains(part.trim_end()), "docs/emit.md shows another text than:\n{part}");
     }
 }
 

@@ -252,7 +252,7 @@ impl Material {
     /// precision: "f64" or "f32"; None for "f64", in WGSL for "f32".
     /// name: the first part of all names; None for the name of the energy.
     /// functions: a sequence of "energy", "stress", "tangent", "projected", "absolute", "tetrahedron",
-    ///     "projected_tetrahedron", "blocks" and "svd"; None for all.
+    ///     "projected_tetrahedron", "vertex", "projected_vertex", "blocks" and "svd"; None for all.
     ///
     /// Raises ValueError for an unknown word, and MaterialError for an energy that cannot be printed.
     #[pyo3(signature = (target, *, precision = None, name = None, functions = None))]

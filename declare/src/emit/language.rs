@@ -11,33 +11,14 @@ mod primitives;
 
 use piola::__private::record::{Binary, Id, RecordedOperation, Unary};
 
+use super::signature::{Returned, Signature, Value};
 use super::{Precision, Target};
 
 /// Keywords of C99, C++20 and OpenCL C, and macros of headers and compilers.
-const RESERVED_IN_C: &str = "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t \
-    char32_t class co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue \
-    decltype default delete do double dynamic_cast else enum explicit export extern false float for friend goto if \
-    inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
-    register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct \
-    switch template this thread_local throw true try typedef typeid typename typeof union unsigned using virtual void \
-    volatile wchar_t while xor xor_eq I complex imaginary INFINITY NAN HUGE_VAL NULL M_E M_PI MAXFLOAT errno linux unix near \
-    far small global local constant kernel half uchar ushort uint ulong read_only write_only read_write uniform pipe event_t \
-    sampler_t image1d_t image2d_t image3d_t size_t";
+const RESERVED_IN_C: &str = include_str!("language/reserved_in_c.txt");
 
 /// Keywords and reserved words of WGSL.
-const RESERVED_IN_WGSL: &str = "alias break case const const_assert continue continuing default diagnostic discard else enable \
-    false fn for if let loop override requires return struct switch true var while NULL Self abstract active alignas \
-    alignof as asm asm_fragment async attribute auto await become binding_array cast catch class co_await co_return \
-    co_yield coherent column_major common compile compile_fragment concept const_cast consteval constexpr constinit crate \
-    debugger decltype delete demote demote_to_helper do dynamic_cast enum explicit export extends extern external \
-    fallthrough filter final finally friend from fxgroup get goto groupshared highp impl implements import inline \
-    instanceof interface layout lowp macro macro_rules match mediump meta mod module move mut mutable namespace new nil \
-    noexcept noinline nointerpolation non_coherent noncoherent noperspective null nullptr of operator package packoffset \
-    partition pass patch pixelfragment precise precision premerge priv protected pub public readonly ref regardless \
-    register reinterpret_cast require resource restrict self set shared sizeof smooth snorm static static_assert \
-    static_cast std subroutine super target template this thread_local throw trait try type typedef typeid typename \
-    typeof union unless unorm unsafe unsized use using varying virtual volatile wgsl where with writeonly yield bool f16 \
-    f32 i32 u32 array atomic ptr vec2 vec3 vec4";
+const RESERVED_IN_WGSL: &str = include_str!("language/reserved_in_wgsl.txt");
 
 /// The type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,31 +29,25 @@ pub(super) enum Kind {
     Status,
 }
 
-/// An argument of a function of the file.
-pub(super) enum Argument<'a> {
-    /// The structure of the parameters, `p`.
-    Parameters,
-    /// A number.
-    Number(&'a str),
-    /// Numbers to be read.
-    Input(&'a str, usize),
-    /// Numbers to be written.
-    Output(&'a str, usize),
-}
-
 /// A language, with the number format and the prefix of a file.
 pub(super) struct Language {
     target: Target,
     is_single: bool,
     prefix: String,
-    /// The prefix of macros.
-    upper: String,
+    /// The prefix of functions that belong to all energies.
+    shared: String,
 }
 
 impl Language {
     pub(super) fn new(target: Target, precision: Precision, prefix: &str) -> Self {
         let is_single = precision == Precision::F32;
-        Self { target, is_single, prefix: prefix.to_owned(), upper: prefix.to_uppercase() }
+        // Each file of WGSL has what it calls, and a variable of its own for it.
+        let shared = match (target, is_single) {
+            (Target::Wgsl, _) => prefix,
+            (_, true) => "piola_f32",
+            (_, false) => "piola_f64",
+        };
+        Self { target, is_single, prefix: prefix.to_owned(), shared: shared.to_owned() }
     }
 
     fn is_c(&self) -> bool {
@@ -101,9 +76,19 @@ impl Language {
         if matches!(self.target, Target::C | Target::Cuda) { self.end() } else { "" }
     }
 
-    /// Qualifiers and type of a function in C, and the prefix of its name.
+    /// The prefix of macros that belong to all energies.
+    fn upper(&self) -> String {
+        self.shared.to_uppercase()
+    }
+
+    /// The name of a function.
+    pub(super) fn name_of(&self, function: &str, is_of_energy: bool) -> String {
+        format!("{}_{function}", if is_of_energy { &self.prefix } else { &self.shared })
+    }
+
+    /// Qualifiers and type of a shared function in C, and the prefix of its name.
     fn function(&self, result: &str) -> String {
-        format!("{}_FUNCTION {result} {}", self.upper, self.prefix)
+        format!("{}_FUNCTION {result} {}", self.upper(), self.shared)
     }
 
     /// True if conditions on parameters are in `double`, as in the constructor.
@@ -125,10 +110,10 @@ impl Language {
             (Target::Wgsl, _) if single == 0.0 => self.rounded(format!("{single:?}f")),
             // CUDA's compiler at run time has no macros for them.
             (Target::Cuda, false) if !value.is_finite() => {
-                format!("{}_of_bits({:#x}ull)", self.prefix, value.to_bits())
+                format!("{}_of_bits({:#x}ull)", self.shared, value.to_bits())
             }
             (Target::Cuda | Target::Wgsl, true) if !single.is_finite() => {
-                format!("{}_of_bits({:#x}u)", self.prefix, single.to_bits())
+                format!("{}_of_bits({:#x}u)", self.shared, single.to_bits())
             }
             _ if value.is_nan() => format!("({number})NAN"),
             _ if value.is_infinite() => format!("{}({number})INFINITY", if value < 0.0 { "-" } else { "" }),
@@ -147,13 +132,64 @@ impl Language {
         format!("{words} {name} = {value};")
     }
 
-    /// A statement with a variable that is assigned later; zeroed, if not every way assigns it.
-    pub(super) fn variable(&self, kind: Kind, name: &str, is_zeroed: bool) -> String {
-        let of_kind = self.type_of(kind);
+    /// A statement with an array that is not changed.
+    pub(super) fn constant_array(&self, name: &str, numbers: &[String]) -> String {
+        let (count, number) = (numbers.len(), self.type_of(Kind::Number));
         match self.is_c() {
-            true => format!("{of_kind} {name}{};", if is_zeroed { " = 0" } else { "" }),
-            false => format!("var {name}: {of_kind};"),
+            true => format!("const {number} {name}[{count}] = {};", self.list(numbers)),
+            false => format!("let {name} = {};", self.list(numbers)),
         }
+    }
+
+    /// Statements with variables that are assigned later: names, or arrays.
+    pub(super) fn variables(&self, kind: Kind, names: &[String], margin: &str) -> String {
+        let of_kind = self.type_of(kind);
+        let mut text = String::new();
+        // As many in a line of C as are read easily.
+        for names in names.chunks(if self.is_c() { 12 } else { 1 }) {
+            text += &match self.is_c() {
+                true => format!("{margin}{of_kind} {};\n", names.join(", ")),
+                false if names[0].contains(':') => format!("{margin}var {};\n", names[0]),
+                false => format!("{margin}var {}: {of_kind};\n", names[0]),
+            };
+        }
+        text
+    }
+
+    /// An array in the statement that declares it.
+    pub(super) fn array(&self, name: &str, length: usize) -> String {
+        if self.is_c() { format!("{name}[{length}]") } else { format!("{name}: array<f32, {length}>") }
+    }
+
+    /// A variable as an output of a call; an output of the calling function is one already.
+    pub(super) fn address(&self, name: &str, is_array: bool, is_output: bool) -> String {
+        if is_output || is_array && self.is_c() { name.to_owned() } else { format!("&{name}") }
+    }
+
+    /// An array as an input of a call.
+    pub(super) fn passed(&self, name: &str, is_output: bool) -> String {
+        if is_output && !self.is_c() { format!("*{name}") } else { name.to_owned() }
+    }
+
+    /// An entry of an array.
+    pub(super) fn element(&self, name: &str, entry: usize, is_output: bool) -> String {
+        if is_output && !self.is_c() { format!("(*{name})[{entry}]") } else { format!("{name}[{entry}]") }
+    }
+
+    /// Statements that write a value to several places.
+    pub(super) fn assignment(&self, places: &[String], value: &str, margin: &str) -> String {
+        match self.is_c() {
+            true => format!("{margin}{} = {value};\n", places.join(" = ")),
+            false => {
+                let copies = places[1..].iter().map(|place| format!("{margin}{place} = {};\n", places[0]));
+                format!("{margin}{} = {value};\n{}", places[0], copies.collect::<String>())
+            }
+        }
+    }
+
+    /// What stands before a call whose value is not used.
+    pub(super) fn unused(&self) -> &'static str {
+        if self.is_c() { "" } else { "_ = " }
     }
 
     pub(super) fn parameter(&self, name: &str, entry: Option<usize>) -> String {
@@ -161,86 +197,95 @@ impl Language {
         entry.map_or_else(|| format!("p{within}{name}"), |entry| format!("p{within}{name}[{entry}]"))
     }
 
-    /// An entry of an output of `count` numbers.
-    pub(super) fn output(&self, name: &str, count: usize, entry: usize) -> String {
-        match (count, self.is_c()) {
-            (1, _) => format!("*{name}"),
-            (_, true) => format!("{name}[{entry}]"),
-            (_, false) => format!("(*{name})[{entry}]"),
-        }
-    }
-
     /// The result of an operation of arithmetic, rounded before it is used.
     fn rounded(&self, result: String) -> String {
-        if self.is_c() { result } else { format!("{}_rounded({result})", self.prefix) }
+        if self.is_c() { result } else { format!("{}_rounded({result})", self.shared) }
     }
 
     /// The first statement of a function that returns a status, whose first input this is.
     pub(super) fn start(&self, input: &str) -> String {
         match self.is_c() {
             true => String::new(),
-            false => format!("    {0}_nothing = select(1u, 0u, {0}_is_finite({input}));\n", self.prefix),
+            false => format!("    {0}_nothing = select(1u, 0u, {0}_is_finite({input}));\n", self.shared),
         }
     }
 
     pub(super) fn is_finite(&self, a: &str) -> String {
-        format!("{}_is_finite({a})", self.prefix)
+        format!("{}_is_finite({a})", self.shared)
     }
 
-    /// The text of an operation, given the text of each operand.
+    /// The text of an operation, given the text of an operand by itself and within an expression, and whether
+    /// the text needs parentheses within another.
     pub(super) fn expression(
         &self,
-        id: Id,
         operation: &RecordedOperation,
         o: &dyn Fn(Id) -> String,
-    ) -> String {
-        let Self { prefix, upper, .. } = self;
+        atom: &dyn Fn(Id) -> String,
+    ) -> (String, bool) {
+        let shared = &self.shared;
         let (is_c, suffix) = (self.is_c(), self.suffix());
-        match *operation {
-            RecordedOperation::Unary(operator, a) => match (operator, o(a)) {
-                (Unary::Negate, a) => format!("-{a}"),
-                (Unary::Absolute, a) if is_c => format!("fabs{suffix}({a})"),
-                (Unary::Absolute, a) => format!("abs({a})"),
-                (Unary::SquareRoot, a) => self.rounded(format!("sqrt{suffix}({a})")),
-                (Unary::LeadingPower, a) => format!("{prefix}_leading_power({a})"),
-                (Unary::ReciprocalOfPower, a) => format!("{prefix}_reciprocal_of_power({a})"),
-            },
-            RecordedOperation::Binary(operator, a, b) => match (operator, o(a), o(b)) {
-                (Binary::Add, a, b) => self.rounded(format!("{a} + {b}")),
-                (Binary::Subtract, a, b) => self.rounded(format!("{a} - {b}")),
-                (Binary::Multiply, a, b) => self.rounded(format!("{a} * {b}")),
-                (Binary::Divide, a, b) => self.rounded(format!("{a} / {b}")),
-                // Warp's compiler has none.
-                (Binary::CopySign, a, b) if matches!(self.target, Target::Cuda | Target::Wgsl) => {
-                    format!("{prefix}_copysign({a}, {b})")
-                }
-                (Binary::CopySign, a, b) => format!("copysign{suffix}({a}, {b})"),
-                (Binary::Scale, a, b) => format!("{prefix}_scale({a}, {b})"),
-            },
-            RecordedOperation::MulAdd(a, b, c) => {
-                let function = if is_c { format!("{upper}_MUL_ADD") } else { "fma".to_owned() };
-                self.rounded(format!("{function}({}, {}, {})", o(a), o(b), o(c)))
+        let two = |a: Id, operator: &str, b: Id| format!("{} {operator} {}", atom(a), atom(b));
+        let text = match *operation {
+            RecordedOperation::Unary(Unary::Negate, a) => format!("-{}", atom(a)),
+            RecordedOperation::Binary(operator @ (Binary::Add | Binary::Subtract), a, b) => {
+                let text = self.rounded(two(a, if operator == Binary::Add { "+" } else { "-" }, b));
+                return (text, is_c);
             }
-            RecordedOperation::Less(a, b) if o(b) == self.literal(f64::INFINITY) => self.is_finite(&o(a)),
-            RecordedOperation::Less(a, b) => format!("{} < {}", o(a), o(b)),
-            RecordedOperation::IsZero(a) => format!("{} == 0{}", o(a), if is_c { "" } else { ".0f" }),
-            RecordedOperation::Not(a) => format!("!{}", o(a)),
-            RecordedOperation::And(a, b) => format!("{} & {}", o(a), o(b)),
-            RecordedOperation::Or(a, b) => format!("{} | {}", o(a), o(b)),
+            RecordedOperation::Binary(operator @ (Binary::Multiply | Binary::Divide), a, b) => {
+                let text = self.rounded(two(a, if operator == Binary::Multiply { "*" } else { "/" }, b));
+                return (text, is_c);
+            }
+            RecordedOperation::Less(a, b) if o(b) == self.literal(f64::INFINITY) => {
+                return (self.is_finite(&o(a)), false);
+            }
+            RecordedOperation::Less(a, b) => two(a, "<", b),
+            RecordedOperation::IsZero(a) => format!("{} == 0{}", atom(a), if is_c { "" } else { ".0f" }),
+            RecordedOperation::Not(a) => return (format!("!{}", atom(a)), false),
+            RecordedOperation::And(a, b) => two(a, "&", b),
+            RecordedOperation::Or(a, b) => two(a, "|", b),
             RecordedOperation::Select(mask, yes, no) if is_c => {
-                format!("{} ? {} : {}", o(mask), o(yes), o(no))
+                format!("{} ? {} : {}", atom(mask), atom(yes), atom(no))
             }
             RecordedOperation::Select(mask, yes, no) => {
-                format!("select({}, {}, {})", o(no), o(yes), o(mask))
+                return (format!("select({}, {}, {})", o(no), o(yes), o(mask)), false);
             }
-            RecordedOperation::Call(function, arguments) => {
-                let mut list: Vec<_> = arguments.iter().flatten().map(|&argument| o(argument)).collect();
-                if function.is_pair() {
-                    list.push(format!("&s{id}"));
-                }
-                format!("{prefix}_{}({})", function.name(), list.join(", "))
+            ref operation => return (self.called(operation, o, shared, suffix), false),
+        };
+        (text, true)
+    }
+
+    /// The text of an operation that is a call in the language.
+    fn called(
+        &self,
+        operation: &RecordedOperation,
+        o: &dyn Fn(Id) -> String,
+        shared: &str,
+        suffix: &str,
+    ) -> String {
+        let is_c = self.is_c();
+        match *operation {
+            RecordedOperation::Unary(operator, a) => match operator {
+                Unary::Absolute if is_c => format!("fabs{suffix}({})", o(a)),
+                Unary::Absolute => format!("abs({})", o(a)),
+                Unary::SquareRoot => self.rounded(format!("sqrt{suffix}({})", o(a))),
+                Unary::LeadingPower => format!("{shared}_leading_power({})", o(a)),
+                _ => format!("{shared}_reciprocal_of_power({})", o(a)),
+            },
+            // Warp's compiler has none.
+            RecordedOperation::Binary(Binary::CopySign, a, b)
+                if matches!(self.target, Target::Cuda | Target::Wgsl) =>
+            {
+                format!("{shared}_copysign({}, {})", o(a), o(b))
             }
-            _ => o(id),
+            RecordedOperation::Binary(Binary::CopySign, a, b) => {
+                format!("copysign{suffix}({}, {})", o(a), o(b))
+            }
+            RecordedOperation::Binary(_, a, b) => format!("{shared}_scale({}, {})", o(a), o(b)),
+            RecordedOperation::MulAdd(a, b, c) => {
+                let function = if is_c { format!("{}_MUL_ADD", self.upper()) } else { "fma".to_owned() };
+                self.rounded(format!("{function}({}, {}, {})", o(a), o(b), o(c)))
+            }
+            _ => String::new(),
         }
     }
 
@@ -254,25 +299,55 @@ impl Language {
     }
 
     /// The first line of a function.
-    pub(super) fn head(&self, name: &str, arguments: &[Argument<'_>], result: Kind) -> String {
-        let (number, result) = (self.type_of(Kind::Number), self.type_of(result));
-        let written = |argument: &Argument<'_>| match (argument, self.is_c()) {
-            (Argument::Parameters, true) => format!("const {}_parameters *p", self.prefix),
-            (Argument::Parameters, false) => format!("p: {}_parameters", self.prefix),
-            (Argument::Number(name), _) => self.declared(name, None),
-            (Argument::Input(name, count), true) => format!("const {}", self.declared(name, Some(*count))),
-            (Argument::Input(name, count), false) => self.declared(name, Some(*count)),
-            (Argument::Output(name, 1), true) => format!("{number} *{name}"),
-            (Argument::Output(name, 1), false) => format!("{name}: ptr<function, {number}>"),
-            (Argument::Output(name, count), true) => self.declared(name, Some(*count)),
-            (Argument::Output(name, count), false) => {
-                format!("{name}: ptr<function, array<{number}, {count}>>")
-            }
+    pub(super) fn head(&self, signature: &Signature, is_inlined: bool) -> String {
+        let mut list = Vec::new();
+        if signature.is_of_energy {
+            list.push(self.declared_parameters());
+        }
+        for &Value { name, length } in &signature.inputs {
+            let constant = if self.is_c() && length.is_some() { "const " } else { "" };
+            list.push(format!("{constant}{}", self.declared(name, length)));
+        }
+        for &Value { name, length } in &signature.outputs {
+            let number = self.type_of(Kind::Number);
+            list.push(match (length, self.is_c()) {
+                (None, true) => format!("{number} *{name}"),
+                (_, true) => self.declared(name, length),
+                (None, false) => format!("{name}: ptr<function, {number}>"),
+                (Some(length), false) => format!("{name}: ptr<function, array<{number}, {length}>>"),
+            });
+        }
+        let returned = match signature.returned {
+            Returned::Nothing => None,
+            Returned::Number => Some(self.type_of(Kind::Number)),
+            Returned::Truth(_) => Some(self.type_of(Kind::Truth)),
+            Returned::Status => Some(self.type_of(Kind::Status)),
         };
-        let list = arguments.iter().map(written).collect::<Vec<_>>().join(", ");
+        self.first_line(&self.name_of(signature.name, signature.is_of_energy), &list, returned, is_inlined)
+    }
+
+    /// The first line of the check of the parameters.
+    pub(super) fn head_of_check(&self) -> String {
+        let status = Some(self.type_of(Kind::Status));
+        self.first_line(&self.name_of("check", true), &[self.declared_parameters()], status, false)
+    }
+
+    fn first_line(&self, name: &str, list: &[String], returned: Option<&str>, is_inlined: bool) -> String {
+        let list = list.join(", ");
+        match (self.is_c(), returned) {
+            (true, _) => {
+                let word = if is_inlined { "STAGE" } else { "FUNCTION" };
+                format!("{}_{word} {} {name}({list}) {{", self.upper(), returned.unwrap_or("void"))
+            }
+            (false, Some(returned)) => format!("fn {name}({list}) -> {returned} {{"),
+            (false, None) => format!("fn {name}({list}) {{"),
+        }
+    }
+
+    fn declared_parameters(&self) -> String {
         match self.is_c() {
-            true => format!("{}_{name}({list}) {{", self.function(result)),
-            false => format!("fn {}_{name}({list}) -> {result} {{", self.prefix),
+            true => format!("const {}_parameters *p", self.prefix),
+            false => format!("p: {}_parameters", self.prefix),
         }
     }
 
@@ -347,7 +422,8 @@ impl Language {
 
     /// The structure of the parameters with these fields, and the values that the file was made with.
     pub(super) fn structure(&self, fields: &str, example: &[String]) -> String {
-        let (Self { prefix, upper, .. }, example) = (self, example.join(", "));
+        let (Self { prefix, .. }, example) = (self, example.join(", "));
+        let upper = prefix.to_uppercase();
         match self.is_c() {
             true => format!(
                 "typedef struct {{\n{fields}}} {prefix}_parameters;\n\n#define {upper}_EXAMPLE {{{example}}}\n\n"
@@ -373,9 +449,9 @@ fn {prefix}_example() -> {prefix}_parameters {{
 
     /// Name of the values that the file was made with.
     pub(super) fn example(&self) -> String {
-        let Self { prefix, upper, .. } = self;
+        let prefix = &self.prefix;
         if self.is_c() {
-            format!("{prefix}_parameters p = {upper}_EXAMPLE")
+            format!("{prefix}_parameters p = {}_EXAMPLE", prefix.to_uppercase())
         } else {
             format!("{prefix}_example()")
         }
@@ -403,32 +479,45 @@ fn {prefix}_example() -> {prefix}_parameters {{
         }
     }
 
+    /// A function that belongs to all energies: once in a program, unless another release prints another one,
+    /// which compilers then refuse.
+    pub(super) fn once(&self, name: &str, text: &str) -> String {
+        if !self.is_c() {
+            return text.to_owned();
+        }
+        let guard = format!("{}_{}_{:08X}", self.upper(), name.to_uppercase(), sum_of(text));
+        format!("#ifndef {guard}\n#define {guard}\n{}\n#endif\n", text.trim_end())
+    }
+
     /// The contents below the comment. In C with guards against a second reading, against another file of
     /// that name, and against arithmetic that is not that of IEEE 754.
-    pub(super) fn guarded(&self, text: String) -> String {
-        let Self { upper, .. } = self;
-        // FNV-1a.
-        let sum =
-            text.bytes().fold(0x811c_9dc5_u32, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+    pub(super) fn guarded(&self, shared: String, own: String) -> String {
+        let (upper, all) = (self.prefix.to_uppercase(), self.upper());
+        let sum = sum_of(&own);
         // CUDA's compiler at run time defines no `__GNUC__`, but has its attributes.
         let (has_attributes, device) = match self.target {
-            Target::Wgsl => return text,
+            Target::Wgsl => return shared + &own,
             Target::C | Target::OpenCl => ("defined(__GNUC__)", String::new()),
-            Target::Cuda => ("defined(__GNUC__) || defined(__CUDACC_RTC__)", format!(" {upper}_DEVICE")),
+            Target::Cuda => ("defined(__GNUC__) || defined(__CUDACC_RTC__)", format!(" {all}_DEVICE")),
         };
+        let inlined = if self.target == Target::C { "unused, always_inline" } else { "unused" };
         let head = self.head_of_file();
         // The attribute is for clang and nvcc, which warn of functions that are not called, `inline` or not.
         format!(
             "#ifndef {upper}_H
 #define {upper}_H {sum:#x}
 {head}#if {has_attributes}
-#define {upper}_FUNCTION static inline __attribute__((unused)){device}
+#define {all}_FUNCTION static inline __attribute__((unused)){device}
+#define {all}_STAGE static inline __attribute__(({inlined})){device}
 #else
-#define {upper}_FUNCTION static inline{device}
+#define {all}_FUNCTION static inline{device}
+#define {all}_STAGE static inline{device}
 #endif
 
-{text}#ifdef {upper}_PRECISE
+{shared}
+{own}#ifdef {all}_PRECISE
 #pragma float_control(pop)
+#undef {all}_PRECISE
 #endif
 #elif {upper}_H != {sum:#x}
 #error \"two files have the prefix of this one: give one of them another name\"
@@ -436,4 +525,9 @@ fn {prefix}_example() -> {prefix}_parameters {{
 "
         )
     }
+}
+
+/// FNV-1a.
+fn sum_of(text: &str) -> u32 {
+    text.bytes().fold(0x811c_9dc5, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }

@@ -6,12 +6,13 @@ mod check;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use piola::__private::record::{Function, RecordedOperation, RecordedProgram, Recording};
+use piola::__private::record::{RecordedFunction, RecordedOperation};
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
-use super::language::{Argument, Kind, Language};
-use super::{File, PointFunction};
+use super::File;
+use super::language::Language;
+use super::signature::{Returned, Signature};
 use body::Body;
 
 /// True if names can begin with this one, in every language.
@@ -22,25 +23,26 @@ pub(super) fn is_identifier(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_of_name) && is_free
 }
 
-/// The file.
+/// The file: what belongs to all energies, then the parameters, their check, and what belongs to this one.
 pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
-    let recordings: Vec<&Recording> =
-        file.functions.iter().map(|(_, recording)| recording).chain([&file.rest]).collect();
-    let mut text = String::new();
-    let mut printed = BTreeSet::new();
-    for recording in &recordings {
-        for function in recording.functions.keys() {
-            printer.function(*function, recording, &mut printed, &mut text);
+    let [mut shared, mut own] = [String::new(), String::new()];
+    for function in printer.needed() {
+        let signature = printer.signature(function.name);
+        let text = printer.function(function, signature);
+        match signature.is_of_energy {
+            true if signature.name == "at_rest" => own = text + &printer.check() + &own,
+            true => own += &text,
+            false => shared += &printer.language.once(signature.name, &text),
         }
     }
-    text += &printer.check();
-    for (function, recording) in &file.functions {
-        text += &printer.point_function(*function, &recording.program);
-    }
-    let text = printer.parameters() + &printer.language.primitives(&text) + &text;
-    printer.comment() + &printer.language.guarded(text)
+    let text = printer.parameters() + &own;
+    let primitives = printer.language.primitives(&[&shared[..], &text].concat());
+    printer.comment() + &printer.language.guarded(primitives + &shared, text)
 }
+
+/// Operations of a function of the energy that is inlined.
+const SHORT: usize = 128;
 
 struct Printer<'a> {
     file: &'a File<'a>,
@@ -49,6 +51,7 @@ struct Printer<'a> {
     fields: Vec<String>,
     /// Text of each number among the parameters; whole exponents have no place.
     parameters: Vec<String>,
+    signatures: Vec<Signature>,
 }
 
 impl<'a> Printer<'a> {
@@ -63,7 +66,34 @@ impl<'a> Printer<'a> {
                 parameters.push(language.parameter(name, is_list.then_some(k)));
             }
         }
-        Self { file, language, fields, parameters }
+        Self { file, language, fields, parameters, signatures: Signature::all() }
+    }
+
+    /// What is written about a function.
+    fn signature(&self, name: &str) -> &Signature {
+        let found = self.signatures.iter().find(|one| one.name == name);
+        debug_assert!(found.is_some(), "functions.txt has no `{name}`");
+        found.unwrap_or(&self.signatures[0])
+    }
+
+    /// The functions that are requested, and those that they call, in an order in which they can be compiled.
+    fn needed(&self) -> Vec<&'a RecordedFunction> {
+        let wanted = self.file.wanted.iter().map(|function| function.name());
+        let mut names: BTreeSet<_> = wanted.chain(["at_rest"]).collect();
+        let mut needed = Vec::new();
+        for function in self.file.functions.iter().rev() {
+            if !names.contains(function.name) {
+                continue;
+            }
+            needed.push(function);
+            for operation in &function.program.operations {
+                if let RecordedOperation::Call(name, _) = operation {
+                    names.insert(name);
+                }
+            }
+        }
+        needed.reverse();
+        needed
     }
 
     /// The description of the file and its use.
@@ -132,118 +162,33 @@ impl<'a> Printer<'a> {
         language.structure(&fields, &example)
     }
 
-    /// A function, after those that it calls.
-    fn function(
-        &self,
-        function: Function,
-        recording: &Recording,
-        printed: &mut BTreeSet<Function>,
-        text: &mut String,
-    ) {
-        let Some(program) = recording.functions.get(&function).filter(|_| printed.insert(function)) else {
-            return;
-        };
-        for operation in &program.operations {
-            if let RecordedOperation::Call(called, _) = operation {
-                self.function(*called, recording, printed, text);
-            }
-        }
-        let arguments: Vec<_> = (0..program.arguments).map(|k| format!("x{k}")).collect();
-        let mut list: Vec<_> = arguments.iter().map(String::as_str).map(Argument::Number).collect();
-        if function.is_pair() {
-            list.push(Argument::Output("second", 1));
-        }
-        let _ = writeln!(text, "{}", self.language.head(function.name(), &list, Kind::Number));
-        let body = Body::new(self, program, arguments);
-        *text += &body.statements();
-        if function.is_pair() {
-            let _ = writeln!(text, "    *second = {};", body.operand(program.results[1]));
-        }
-        let _ = writeln!(text, "    return {};\n}}\n", body.operand(program.results[0]));
+    /// True for a stage that is inlined, so that arrays between stages are in registers: neither one that
+    /// many functions call and that is long, nor one that writes whole matrices.
+    fn is_inlined(&self, name: &str) -> bool {
+        let signature = self.signature(name);
+        let is_short = |one: &RecordedFunction| one.program.operations.len() <= SHORT;
+        signature.returned != Returned::Status
+            && signature.inputs.iter().any(|input| input.length.is_some())
+            && signature.size() < 81
+            && !signature.name.starts_with("decomposition")
+            && (!signature.is_of_energy
+                || self.file.functions.iter().any(|one| one.name == name && is_short(one)))
     }
 
-    fn point_function(&self, function: PointFunction, program: &RecordedProgram) -> String {
-        let language = &self.language;
-        let Signature { comment, inputs, outputs } = Signature::of(function);
-        let mut arguments = Vec::new();
-        for &(name, count) in inputs {
-            arguments.extend((0..count).map(|k| format!("{name}[{k}]")));
-        }
-        let mut list = vec![Argument::Parameters];
-        list.extend(inputs.iter().map(|&(name, count)| Argument::Input(name, count)));
-        list.extend(outputs.iter().map(|&(name, count)| Argument::Output(name, count)));
-        let mut text = format!("/* {comment} */\n{}\n", language.head(function.name(), &list, Kind::Status));
-        if !program.operations.iter().any(|one| matches!(one, RecordedOperation::Parameter(_))) {
+    fn function(&self, function: &RecordedFunction, signature: &Signature) -> String {
+        let (language, program) = (&self.language, &function.program);
+        let comment = signature.comment.replace('\n', "\n * ");
+        let mut text =
+            format!("/* {comment} */\n{}\n", language.head(signature, self.is_inlined(function.name)));
+        let mut body = Body::new(self, program, signature);
+        let statements = body.statements();
+        if signature.is_of_energy && !statements.contains("p->") && !statements.contains("(p, ") {
             text += language.parameters_are_unused();
         }
-        text += &language.start(&arguments[0]);
-        let body = Body::new(self, program, arguments);
-        text += &body.statements();
-        let mut results = program.results.iter();
-        for &(name, count) in outputs {
-            for (k, &result) in (0..count).zip(results.by_ref()) {
-                let place = language.output(name, count, k);
-                let _ = writeln!(text, "    {place} = {};", body.operand(result));
-            }
+        if let (true, Some(input)) = (signature.returned == Returned::Status, signature.inputs.first()) {
+            text += &language.start(&format!("{}[0]", input.name));
         }
-        let bits: Vec<_> = results
-            .enumerate()
-            .filter(|&(_, &result)| program.operations[result as usize] != RecordedOperation::Truth(false))
-            .map(|(k, &result)| language.bit(k, &body.operand(result)))
-            .collect();
-        let status = if bits.is_empty() { "0u".to_owned() } else { bits.join(" | ") };
-        let _ = writeln!(text, "    return {status};\n}}\n");
-        text
-    }
-}
-
-/// Arguments and results of a function, and the comment above it.
-pub(super) struct Signature {
-    comment: &'static str,
-    pub(super) inputs: &'static [(&'static str, usize)],
-    outputs: &'static [(&'static str, usize)],
-}
-
-impl Signature {
-    pub(super) fn of(function: PointFunction) -> Self {
-        const F: &[(&str, usize)] = &[("F", 9)];
-        const P: (&str, usize) = ("P", 9);
-        const TANGENT: &[(&str, usize)] = &[P, ("A", 81)];
-        const NODES: &[(&str, usize)] = &[("x", 12), ("rest", 10)];
-        const ELEMENT: &[(&str, usize)] = &[("gradient", 12), ("K", 144)];
-        let (comment, inputs, outputs): (_, _, &[_]) = match function {
-            PointFunction::Energy => ("The energy density psi at F, Pa.", F, &[("psi", 1)]),
-            PointFunction::Stress => ("The first Piola stress P at F, Pa.", F, &[P]),
-            PointFunction::Tangent => ("P and A = dP/dF at F, Pa.", F, TANGENT),
-            PointFunction::Projected => (
-                "P and dP/dF at F, Pa, with negative eigenvalues clamped to zero: positive semidefinite.",
-                F,
-                TANGENT,
-            ),
-            PointFunction::Absolute => {
-                ("P and dP/dF at F, Pa, with the absolute values of its eigenvalues.", F, TANGENT)
-            }
-            PointFunction::Tetrahedron => (
-                "The gradient of the energy of a linear tetrahedron, N (forces are minus it), and its stiffness, N/m, symmetric:
- * coordinate a of node i at 3 i + a, entry of K at 12 row + column. x: positions of the nodes; rest: the inverse of Dm
- * row by row, whose columns are the edges from node 0 at rest, and the volume, which is not negative.",
-                NODES,
-                ELEMENT,
-            ),
-            PointFunction::ProjectedTetrahedron => (
-                "As tetrahedron, with negative eigenvalues of dP/dF clamped to zero, so that K is positive semidefinite.",
-                NODES,
-                ELEMENT,
-            ),
-            PointFunction::Blocks => (
-                "psi_i, then psi_11, _22, _33, _12, _13, _23, flips (psi_i - psi_j)/(l_i - l_j) and twists
- * (psi_i + psi_j)/(l_i + l_j) of the pairs 12, 13, 23, at signed stretches, Pa.",
-                &[("l", 3)],
-                &[("blocks", 15)],
-            ),
-            PointFunction::Svd => ("F = U diag(l) V^T.", F, &[("U", 9), ("l", 3), ("V", 9)]),
-        };
-        Self { comment, inputs, outputs }
+        text + &statements + "}\n\n"
     }
 }
 

@@ -3,7 +3,7 @@
 //! A selection by a mask that the computation has tested is a branch: it contains the operations that only
 //! one of its values needs. Otherwise the order of the record is kept.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 
 use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 
@@ -16,16 +16,16 @@ pub(super) enum Step {
     Branch { mask: Id, selections: Vec<(Id, [Id; 2])>, inner: [Vec<Step>; 2] },
 }
 
-/// The statements of a program, and those whose results are needed outside of the branch that has them.
+/// The statements of a program, and the conditions under which each operation is needed.
 pub(super) struct Steps {
     pub(super) all: Vec<Step>,
-    pub(super) escaping: BTreeSet<Id>,
+    pub(super) needed: Vec<Path>,
 }
 
 /// True if an operation needs no statement because it is written where it is used.
 pub(super) fn is_inline(operation: &RecordedOperation) -> bool {
-    use RecordedOperation::{Argument, Literal, Parameter, Second, Truth};
-    matches!(operation, Argument(_) | Parameter(_) | Literal(_) | Truth(_) | Second(_))
+    use RecordedOperation::{Argument, Literal, Parameter, Part, Truth};
+    matches!(operation, Argument(_) | Parameter(_) | Literal(_) | Truth(_) | Part(..))
 }
 
 impl Steps {
@@ -33,15 +33,12 @@ impl Steps {
         let mut order = Order::new(program);
         let all: BTreeSet<Id> = (0..program.operations.len() as Id).collect();
         let all = order.steps(&[], &all);
-        let mut scopes = Scopes { program, hidden: HashSet::new(), escaping: BTreeSet::new() };
-        scopes.visit(&all);
-        program.results.iter().for_each(|&result| scopes.uses(result));
-        Self { all, escaping: scopes.escaping }
+        Self { all, needed: order.needed }
     }
 }
 
 /// Conditions under which operations are needed: masks that hold or do not, the outermost first.
-type Path = Vec<(Id, bool)>;
+pub(super) type Path = Vec<(Id, bool)>;
 
 struct Order<'a> {
     program: &'a RecordedProgram,
@@ -111,6 +108,10 @@ impl<'a> Order<'a> {
                     false => self.steps(&within, &inside[usize::from(!holds)]),
                 }
             });
+            // What a branch defines is not known after it: another one that needs it computes it again.
+            for &id in inside.iter().flatten() {
+                self.is_done[id as usize] = false;
+            }
             for &(selection, _) in &selections {
                 self.is_done[selection as usize] = true;
             }
@@ -140,7 +141,7 @@ impl<'a> Order<'a> {
 }
 
 /// Mask and values of a selection that is a branch.
-fn guarded(program: &RecordedProgram, id: Id) -> Option<(Id, Id, Id)> {
+pub(super) fn guarded(program: &RecordedProgram, id: Id) -> Option<(Id, Id, Id)> {
     match program.operations[id as usize] {
         RecordedOperation::Select(mask, yes, no) if program.guards.contains(&mask) => Some((mask, yes, no)),
         _ => None,
@@ -156,46 +157,4 @@ fn within(path: &[(Id, bool)], mask: Id, holds: bool) -> Path {
 /// The conditions that both are within.
 fn common(one: &[(Id, bool)], other: &[(Id, bool)]) -> Path {
     one.iter().zip(other).take_while(|(one, other)| one == other).map(|(&one, _)| one).collect()
-}
-
-/// Results that are used outside of the list of statements that defines them.
-struct Scopes<'a> {
-    program: &'a RecordedProgram,
-    /// Results that are defined in lists whose statements have all been visited.
-    hidden: HashSet<Id>,
-    escaping: BTreeSet<Id>,
-}
-
-impl Scopes<'_> {
-    /// Visits the statements of a list in their order, each of which uses what others before it have defined.
-    /// Returns the results that the list itself defines.
-    fn visit(&mut self, steps: &[Step]) -> Vec<Id> {
-        let mut defined = Vec::new();
-        for step in steps {
-            match step {
-                Step::Compute(id) => {
-                    self.program.operations[*id as usize].for_each_operand(|operand| self.uses(operand));
-                    defined.push(*id);
-                }
-                Step::Branch { mask, selections, inner } => {
-                    self.uses(*mask);
-                    for (k, inner) in inner.iter().enumerate() {
-                        let inside = self.visit(inner);
-                        selections.iter().for_each(|&(_, values)| self.uses(values[k]));
-                        self.hidden.extend(inside);
-                    }
-                    defined.extend(selections.iter().map(|&(selection, _)| selection));
-                }
-            }
-        }
-        defined
-    }
-
-    fn uses(&mut self, id: Id) {
-        match self.program.operations[id as usize] {
-            RecordedOperation::Second(call) => self.uses(call),
-            _ if self.hidden.contains(&id) => _ = self.escaping.insert(id),
-            _ => {}
-        }
-    }
 }

@@ -10,7 +10,7 @@ use super::execute::{execute_alone, execute_tile};
 use super::parameters::{Context, Parameters, Value, are_alike};
 use super::program::Program;
 use super::registers::Registers;
-use crate::lanes::{Mask, Real, Scalar};
+use crate::lanes::{Mask, Real, Scalar, Truth, stage};
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Moduli, RawTile, ResponseKind};
 
 /// Programs of an energy and of all its responses.
@@ -157,7 +157,7 @@ impl Interpreted {
     fn alone<R: Real, const N: usize>(&self, response: ResponseKind, at: [R; 3]) -> [R; N] {
         match self.program(response) {
             None => [R::splat(f64::NAN); N],
-            Some(program) => self.results(program, &at),
+            Some(program) => stage!(R, response.name(), (at) => self.results(program, &at)),
         }
     }
 
@@ -178,10 +178,12 @@ impl Interpreted {
             (true, Some(programs)) => &programs.bounds,
             (true, None) => return R::Mask::splat(false),
         };
-        execute_at(bounds, self.context(), &at, |registers| {
+        let name = if is_by_invariants { "admits_invariants" } else { "admits" };
+        stage!(R, name, (at) => Truth(execute_at(bounds, self.context(), &at, |registers| {
             let holds = bounds.results.iter().map(|&bound| R::splat(0.0).less(registers.number(bound)));
             holds.fold(self.volume(is_by_invariants).holds(at), |all, one| all & one)
-        })
+        })))
+        .0
     }
 
     /// A response of a tile whose points have this material except for real numbers among its parameters.

@@ -75,6 +75,10 @@ impl<R: Real> Registers<R> {
     pub(super) fn take(program: &Program, context: &Context<'_>, groups: usize) -> Self {
         let these = Prepared::new(program, context, groups);
         let spare = with_spare(|sets: &mut Vec<Self>| {
+            if R::IS_RECORDED {
+                // What is in registers belongs to the program that was being recorded.
+                sets.clear();
+            }
             let is_ready = |one: &Self| these.is_some() && one.prepared == these;
             match sets.iter().rposition(is_ready) {
                 Some(place) => Some(sets.remove(place)),

@@ -259,7 +259,7 @@ pub const MAX_STIFFNESS_RATIO: f64 = 1e6;
 /// factors of a matrix that holds it next to ordinary entries lose all digits of those. A stiffness
 /// [`MAX_STIFFNESS_RATIO`] times the others is rigid enough.
 #[inline(always)]
-fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
+pub(crate) fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     let limit = R::splat(MAX_STIFFNESS_RATIO) * largest([largest(blocks.hessian), largest(blocks.flip)]);
     // Not `min`, which would turn NaN into a plausible number.
     let is_capped = three!(pair => limit.less(blocks.twist[pair]));

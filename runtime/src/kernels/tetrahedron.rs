@@ -1,14 +1,15 @@
-//! One tetrahedron on any real number: all stages of a tile in one function, for recorded programs.
+//! One tetrahedron, or one node of it, on any real number: all stages of a tile in one function, for recorded
+//! programs.
 
-#![expect(non_snake_case, reason = "F, U, V, Ds as in the literature")]
+#![expect(non_snake_case, reason = "F, P, U, V, Ds, K as in the literature")]
 
-use super::form::{FullStiffness, Output, gradient_is_finite, put_gradient};
-use crate::lanes::{Mask, Real};
-use crate::material::Response;
+use super::form::{FullStiffness, Output, cap_twist, gradient_is_finite, put_gradient};
+use crate::lanes::{Mask, Real, Truth};
+use crate::material::{Blocks, PAIRS, Response};
 use crate::point::invariants::invariants;
 use crate::point::invariants::tangent::Terms;
-use crate::point::matrix::three;
-use crate::point::{Filter, Matrix3, Point, evaluate, multiply};
+use crate::point::matrix::{dot, symmetric, three, transpose};
+use crate::point::{Filter, Matrix3, Point, Tangent, entries_are_finite, evaluate, multiply};
 use crate::status::Status;
 
 /// Gradient and stiffness of a linear tetrahedron.
@@ -30,9 +31,11 @@ pub fn evaluate_tetrahedron<R: Real>(
     rest: [R; 10],
     filter: Filter,
 ) -> DenseTetrahedron<R> {
-    let Ds = three!(a => three!(k => nodes[k + 1][a] - nodes[0][a]));
-    let [a, b, c, d, e, f, g, h, i, _] = rest;
-    let F = multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]]);
+    let F = R::stage("deformation_gradient", (nodes, rest), |(nodes, rest)| {
+        let Ds = three!(a => three!(k => nodes[k + 1][a] - nodes[0][a]));
+        let [a, b, c, d, e, f, g, h, i, _] = rest;
+        multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]])
+    });
     if filter != Filter::None || !material.has_invariants() {
         return by_decomposition(material, &F, &rest, filter);
     }
@@ -61,14 +64,36 @@ fn by_decomposition<R: Real>(
     rest: &[R; 10],
     filter: Filter,
 ) -> DenseTetrahedron<R> {
-    let Point { stress, mut tangent, status, .. } = evaluate(material, F, filter);
-    let nonfinite = !gradient_is_finite(&stress, rest);
-    let status = status | Status { nonfinite, ..Status::clean() };
-    let status = status | FullStiffness::prepare(&mut tangent.blocks, rest, material.has_pole());
-    let mut at = DenseTetrahedron::zero(status);
-    put_gradient(&stress, rest, &mut at.gradient);
-    FullStiffness::put_all(&tangent, rest, &mut at.stiffness);
-    at
+    let Point { stress, tangent: Tangent { U, V, blocks }, status, .. } = evaluate(material, F, filter);
+    let rest = *rest;
+    let (gradient, Truth(is_finite)) = R::stage("gradient_of_stress", (stress, rest), |(stress, rest)| {
+        let mut gradient = [R::splat(0.0); 12];
+        put_gradient(&stress, &rest, &mut gradient);
+        (gradient, Truth(gradient_is_finite(&stress, &rest)))
+    });
+    let Blocks { gradient: psi_i, hessian, flip, twist } = blocks;
+    let with = |hessian, flip, twist| Blocks { gradient: psi_i, hessian, flip, twist };
+    let (twist, Truth(bounded)) = match material.has_pole() {
+        true => R::stage("cap_twist", (hessian, flip, twist), |(hessian, flip, twist)| {
+            let mut blocks = with(hessian, flip, twist);
+            let is_capped = cap_twist(&mut blocks);
+            (blocks.twist, Truth(is_capped))
+        }),
+        false => (twist, Truth(R::Mask::splat(false))),
+    };
+    let name = "stiffness_is_not_finite";
+    let Truth(nonfinite) = R::stage(name, (hessian, flip, twist, rest), |(hessian, flip, twist, rest)| {
+        Truth(FullStiffness::prepare(&mut with(hessian, flip, twist), &rest, false).nonfinite)
+    });
+    let frames = (U, V, hessian, flip, twist, rest);
+    let stiffness = R::stage("stiffness_in_frames", frames, |(U, V, hessian, flip, twist, rest)| {
+        let mut stiffness = [R::splat(0.0); 144];
+        let tangent = Tangent { U, V, blocks: with(hessian, flip, twist) };
+        FullStiffness::put_all(&tangent, &rest, &mut stiffness);
+        stiffness
+    });
+    let status = status | Status { bounded, nonfinite: nonfinite | !is_finite, ..Status::clean() };
+    DenseTetrahedron { gradient, stiffness, status }
 }
 
 /// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
@@ -79,20 +104,71 @@ fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
 ) -> (R::Mask, DenseTetrahedron<R>) {
     let (invariants, is_in_range) = invariants(F, HAS_SECOND);
     let derivatives = material.derivatives_by_invariants(invariants);
-    let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(F, invariants, &derivatives);
-    let mut at = DenseTetrahedron::zero(Status::clean());
-    let largest = FullStiffness::put_all_by_invariants(&terms, rest, &mut at.stiffness);
-    put_gradient(&terms.stress(), rest, &mut at.gradient);
-    let stays_finite =
-        FullStiffness::stays_finite(terms.bound(), rest) & gradient_is_finite(&terms.stress(), rest);
-    let served =
-        is_in_range & material.admits_invariants(invariants) & terms.keeps_digits(largest) & stays_finite;
-    (served, at)
+    let (name, inputs) = (Terms::<R, HAS_SECOND, HAS_ALL>::STIFFNESS, (*F, invariants, derivatives, *rest));
+    let (gradient, stiffness, Truth(is_good)) =
+        R::stage(name, inputs, |(F, invariants, derivatives, rest)| {
+            let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives);
+            let (mut gradient, mut stiffness) = ([R::splat(0.0); 12], [R::splat(0.0); 144]);
+            let largest = FullStiffness::put_all_by_invariants(&terms, &rest, &mut stiffness);
+            put_gradient(&terms.stress(), &rest, &mut gradient);
+            let stays_finite = FullStiffness::stays_finite(terms.bound(), &rest)
+                & gradient_is_finite(&terms.stress(), &rest);
+            (gradient, stiffness, Truth(terms.keeps_digits(largest) & stays_finite))
+        });
+    let served = is_in_range & material.admits_invariants(invariants) & is_good;
+    (served, DenseTetrahedron { gradient, stiffness, status: Status::clean() })
 }
 
-impl<R: Real> DenseTetrahedron<R> {
-    fn zero(status: Status<R::Mask>) -> Self {
-        let zero = R::splat(0.0);
-        Self { gradient: [zero; 12], stiffness: [zero; 144], status }
-    }
+/// What belongs to one node of a tetrahedron.
+pub struct DenseVertex<R: Real> {
+    /// The gradient of the tetrahedron's energy in the node's position, N.
+    pub gradient: [R; 3],
+    /// The block of the stiffness between the node and itself, filtered as requested, N/m; symmetric.
+    pub stiffness: Matrix3<R>,
+    /// Status of the results: valid or not, and filtered or not.
+    pub status: Status<R::Mask>,
+}
+
+/// Gradient and filtered stiffness of one node of a tetrahedron, at the tetrahedron's F.
+///
+/// `rest` is the gradient g of the node's barycentric coordinate at rest, which is its row of Dm⁻¹, or minus
+/// the sum of the rows for node 0; then the volume v at rest.
+///
+/// With w = Vᵀg the increments of F by a motion of the node along the columns of U are eᵢ ⊗ w in the
+/// principal frames, so that K = v U B Uᵀ with
+///
+/// ```text
+/// Bii = ψii wi² + Σ_k≠i aik wk²,     Bij = (ψij + bij) wi wj.
+/// ```
+pub fn evaluate_vertex<R: Real>(
+    material: &impl Response<R>,
+    F: &Matrix3<R>,
+    rest: [R; 4],
+    filter: Filter,
+) -> DenseVertex<R> {
+    let Point { stress, tangent: Tangent { U, V, blocks }, status, .. } = evaluate(material, F, filter);
+    let gradient = R::stage(
+        "gradient_of_vertex",
+        (stress, rest),
+        |(P, [g1, g2, g3, v])| three!(a => v * dot(P[a], [g1, g2, g3])),
+    );
+    let Blocks { gradient: psi_i, hessian, flip, twist } = blocks;
+    let frames = (U, V, hessian, flip, twist, rest);
+    let stiffness = R::stage("vertex_in_frames", frames, |(U, V, hessian, flip, twist, [g1, g2, g3, v])| {
+        let blocks = Blocks { gradient: psi_i, hessian, flip, twist };
+        let w = three!(k => dot(transpose(&V)[k], [g1, g2, g3]));
+        let squares = three!(k => v * (w[k] * w[k]));
+        let mut B = three!(i => three!(j => if i == j { hessian[i] * squares[i] } else { R::splat(0.0) }));
+        for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
+            let (a, b) = blocks.pair_block(pair);
+            B[i][i] = a.mul_add(squares[j], B[i][i]);
+            B[j][j] = a.mul_add(squares[i], B[j][j]);
+            B[i][j] = (hessian[3 + pair] + b) * (v * (w[i] * w[j]));
+            B[j][i] = B[i][j];
+        }
+        let left = multiply(&U, &B);
+        symmetric!(i, j => dot(left[i], U[j]))
+    });
+    let nonfinite = !(entries_are_finite(&[gradient; 3]) & entries_are_finite(&stiffness));
+    DenseVertex { gradient, stiffness, status: status | Status { nonfinite, ..Status::clean() } }
 }

@@ -32,6 +32,22 @@ pub trait Real:
     /// The smallest positive normal number.
     const MIN_POSITIVE: f64;
 
+    /// True for the number that records what is computed with it.
+    #[doc(hidden)]
+    const IS_RECORDED: bool = false;
+
+    /// A part of a computation with a name, from its inputs alone: see `stage!`.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn stage<I: Numbers<Self>, O: Numbers<Self>>(
+        name: &'static str,
+        inputs: I,
+        body: impl FnOnce(I) -> O,
+    ) -> O {
+        let _ = name;
+        body(inputs)
+    }
+
     /// [`UNIT_ROUNDOFF`](Self::UNIT_ROUNDOFF) of the numbers that are computed with: a type may have its
     /// format at run time.
     #[doc(hidden)]
@@ -189,3 +205,52 @@ pub trait Mask:
     /// True if any lane is set.
     fn any(self) -> bool;
 }
+
+/// Numbers and truth values in a fixed order, which go into a stage or come out of it.
+pub trait Numbers<R: Real>: Sized {
+    /// The same with every number and truth value replaced, in their order.
+    #[must_use]
+    fn map(self, to: &mut impl Replace<R>) -> Self;
+}
+
+/// What a number and a truth value are replaced with.
+pub trait Replace<R: Real> {
+    /// In place of a number.
+    fn number(&mut self, number: R) -> R;
+    /// In place of a truth value.
+    fn truth(&mut self, truth: R::Mask) -> R::Mask;
+}
+
+impl<R: Real> Numbers<R> for R {
+    fn map(self, to: &mut impl Replace<R>) -> Self {
+        to.number(self)
+    }
+}
+
+/// A truth value that comes out of a stage.
+pub struct Truth<M>(pub M);
+
+impl<R: Real> Numbers<R> for Truth<R::Mask> {
+    fn map(self, to: &mut impl Replace<R>) -> Self {
+        Self(to.truth(self.0))
+    }
+}
+
+impl<R: Real, T: Numbers<R>, const N: usize> Numbers<R> for [T; N] {
+    fn map(self, to: &mut impl Replace<R>) -> Self {
+        self.map(|one| one.map(to))
+    }
+}
+
+macro_rules! numbers {
+    ($($($name:ident)*;)*) => {$(
+        impl<R: Real, $($name: Numbers<R>),*> Numbers<R> for ($($name,)*) {
+            #[expect(non_snake_case, reason = "a value and its type have one name")]
+            fn map(self, to: &mut impl Replace<R>) -> Self {
+                let ($($name,)*) = self;
+                ($($name.map(to),)*)
+            }
+        }
+    )*};
+}
+numbers! { A; A B; A B C; A B C D; A B C D E; A B C D E F; }

@@ -6,28 +6,28 @@
 //! recorded. The test itself is kept: operations that only one way needs stand behind a condition again in
 //! the printed program ([`RecordedProgram::guards`]).
 //!
-//! Equal operations exist once, arithmetic with literals is done at once, and no rule changes a bit. The
-//! elementary functions are recorded as well, each once, and called.
+//! Equal operations exist once, arithmetic with literals is done at once, and no rule changes a bit. Stages
+//! and elementary functions are programs of their own, which are called by name.
 
 pub(crate) mod program;
 mod tape;
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::{self, Logarithm};
 use super::primitive::Primitive;
-use super::real::{Mask, Real};
-use program::{Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary, calls};
+use super::real::{Mask, Numbers, Real, Replace};
+use program::{Binary, Format, Id, RecordedFunction, RecordedOperation, Unary};
 use tape::Tape;
 
 #[derive(Default)]
 struct Recorder {
     format: Format,
-    /// The program, and above it the functions that are being recorded.
+    /// The programs that are being recorded, each called by the one before.
     tapes: Vec<Tape>,
-    functions: BTreeMap<Function, RecordedProgram>,
+    /// Programs that are complete, after those that they call.
+    functions: Vec<RecordedFunction>,
     has_lost_parameter: bool,
 }
 
@@ -52,49 +52,80 @@ pub fn parameter(k: u32) -> f64 {
 const PARAMETERS: u64 = 0x7ff4_9101_0000_0000;
 const QUIET: u64 = 0x7ffc_9101_0000_0000;
 
-/// Records a computation from arguments to numbers and truth values in a format; `None` if it has used a
-/// [`parameter`] as a plain number, so that the record is not a program of the parameter.
+/// Records functions in a format, each after those that it calls; `None` if a [`parameter`] was used as a
+/// plain number, so that the record is not a program of the parameter.
 #[must_use]
-pub fn record(
-    format: Format,
-    arguments: usize,
-    computation: impl FnOnce(&[Recorded]) -> (Vec<Recorded>, Vec<RecordedMask>),
-) -> Option<Recording> {
-    let before = RECORDER.replace(Recorder { format, ..Recorder::default() });
-    let program = recorded(arguments, |arguments| {
-        let (numbers, masks) = computation(arguments);
-        numbers.iter().map(|number| number.0).chain(masks.iter().map(|mask| mask.0)).collect()
-    });
+pub fn record(format: Format, definitions: impl FnOnce()) -> Option<Vec<RecordedFunction>> {
+    let tapes = vec![Tape::default()];
+    let before = RECORDER.replace(Recorder { format, tapes, ..Recorder::default() });
+    definitions();
     let Recorder { functions, has_lost_parameter, .. } = RECORDER.replace(before);
-    (!has_lost_parameter).then_some(Recording { program, functions })
+    (!has_lost_parameter).then_some(functions)
 }
 
-/// The program of a computation on a tape of its own.
-fn recorded(count: usize, computation: impl FnOnce(&[Recorded]) -> Vec<Id>) -> RecordedProgram {
+/// Records a function from its inputs to its results, and calls it.
+///
+/// Each call records it again: a name stands for one program.
+pub fn define<I: Numbers<Recorded>, O: Numbers<Recorded>>(
+    name: &'static str,
+    inputs: I,
+    body: impl FnOnce(I) -> O,
+) -> O {
+    let mut arguments = Vec::new();
+    let inputs = inputs.map(&mut Renamed(|id| {
+        arguments.push(id);
+        id
+    }));
     RECORDER.with_borrow_mut(|recorder| recorder.tapes.push(Tape::default()));
-    let arguments: Vec<_> = (0..count as u32).map(|k| Recorded::of(RecordedOperation::Argument(k))).collect();
-    let results = computation(&arguments);
-    let tape = RECORDER.with_borrow_mut(|recorder| recorder.tapes.pop()).unwrap_or_default();
-    RecordedProgram { arguments: count, ..tape.into_program(results) }
+    let mut count = 0;
+    let inputs = inputs.map(&mut Renamed(|_| {
+        count += 1;
+        Recorded::of(RecordedOperation::Argument(count - 1)).0
+    }));
+    let mut results = Vec::new();
+    let outputs = body(inputs).map(&mut Renamed(|id| {
+        results.push(id);
+        id
+    }));
+    let known = RECORDER.with_borrow_mut(|recorder| {
+        let program = recorder.tapes.pop().unwrap_or_default().into_program(results);
+        let truths = program.results.iter().map(|&id| match program.operations[id as usize] {
+            RecordedOperation::Truth(truth) => Some(truth),
+            _ => None,
+        });
+        let truths: Vec<_> = truths.collect();
+        match recorder.functions.iter().find(|one| one.name == name) {
+            Some(one) => debug_assert_eq!(one.program, program, "the stages `{name}` differ"),
+            None => recorder.functions.push(RecordedFunction { name, program }),
+        }
+        truths
+    });
+    let call = Recorded::of(RecordedOperation::Call(name, arguments.into())).0;
+    let mut parts = known.into_iter().enumerate();
+    outputs.map(&mut Renamed(|_| match parts.next() {
+        Some((_, Some(truth))) => RecordedMask::splat(truth).0,
+        Some((k, None)) => Recorded::of(RecordedOperation::Part(call, k)).0,
+        None => call,
+    }))
 }
 
-/// First result of a function, which is recorded when it is first called.
-fn call<const N: usize>(
-    function: Function,
-    arguments: [Recorded; N],
-    body: impl FnOnce([Recorded; N]) -> Vec<Recorded>,
-) -> Recorded {
-    if !RECORDER.with_borrow(|recorder| recorder.functions.contains_key(&function)) {
-        let program = recorded(N, |arguments| {
-            let results = body(std::array::from_fn(|k| arguments[k]));
-            results.into_iter().map(|result| result.0).collect()
-        });
-        RECORDER.with_borrow_mut(|recorder| recorder.functions.insert(function, program));
+/// Other operations in place of numbers and truth values.
+struct Renamed<F>(F);
+
+impl<F: FnMut(Id) -> Id> Replace<Recorded> for Renamed<F> {
+    fn number(&mut self, number: Recorded) -> Recorded {
+        Recorded((self.0)(number.0))
     }
-    Recorded::of(RecordedOperation::Call(
-        function,
-        std::array::from_fn(|k| arguments.get(k).map(|argument| argument.0)),
-    ))
+
+    fn truth(&mut self, truth: RecordedMask) -> RecordedMask {
+        RecordedMask((self.0)(truth.0))
+    }
+}
+
+impl Numbers<Recorded> for Logarithm<Recorded> {
+    fn map(self, to: &mut impl Replace<Recorded>) -> Self {
+        Self { high: to.number(self.high), low: to.number(self.low) }
+    }
 }
 
 impl Format {
@@ -113,9 +144,15 @@ impl Recorded {
         Self(id)
     }
 
-    /// The second result of a call.
-    fn second(self) -> Self {
-        Self::of(RecordedOperation::Second(self.0))
+    /// Results of a function without a program, which printers have in each language.
+    fn primitive<const N: usize>(name: &'static str, arguments: &[Self]) -> [Self; N] {
+        let call = Self::of(RecordedOperation::Call(name, arguments.iter().map(|number| number.0).collect()));
+        std::array::from_fn(|k| Self::of(RecordedOperation::Part(call.0, k)))
+    }
+
+    fn is_literal(self) -> bool {
+        RECORDER
+            .with_borrow(|recorder| recorder.tapes.last().is_some_and(|tape| tape.literal(self.0).is_some()))
     }
 
     fn unary(self, operator: Unary) -> Self {
@@ -158,6 +195,15 @@ impl Mask for RecordedMask {
             true
         })
     }
+}
+
+/// Methods that call an elementary function.
+macro_rules! elementary_stages {
+    ($($method:ident)*) => {$(
+        fn $method(self) -> Self {
+            define(stringify!($method), self, elementary::$method)
+        }
+    )*};
 }
 
 macro_rules! operators {
@@ -230,27 +276,34 @@ impl Real for Recorded {
         self.unary(Unary::SquareRoot)
     }
 
-    calls!();
+    const IS_RECORDED: bool = true;
 
-    fn logarithm(self) -> Self::Logarithm {
-        let high = call(Function::Logarithm, [self], |[x]| {
-            let Logarithm { high, low } = elementary::logarithm(x);
-            vec![high, low]
-        });
-        Logarithm { high, low: high.second() }
+    /// A stage of known numbers is computed at once.
+    fn stage<I: Numbers<Self>, O: Numbers<Self>>(
+        name: &'static str,
+        inputs: I,
+        body: impl FnOnce(I) -> O,
+    ) -> O {
+        let mut is_known = true;
+        let inputs = inputs.map(&mut Renamed(|id| {
+            is_known &= Self(id).is_literal();
+            id
+        }));
+        if is_known { body(inputs) } else { define(name, inputs, body) }
     }
 
-    fn power(Logarithm { high, low }: Self::Logarithm, exponent: Self) -> Self {
-        call(Function::Power, [high, low, exponent], |[high, low, exponent]| {
-            vec![elementary::power(Logarithm { high, low }, exponent)]
-        })
+    elementary_stages! { cbrt ln exp ln_1p exp_m1 sinh cosh tanh asinh sin cos atan erf softplus sigmoid }
+
+    fn logarithm(self) -> Self::Logarithm {
+        define("logarithm", self, elementary::logarithm)
+    }
+
+    fn power(logarithm: Self::Logarithm, exponent: Self) -> Self {
+        define("power", (logarithm, exponent), |(logarithm, exponent)| elementary::power(logarithm, exponent))
     }
 
     fn logarithm_of_ratio(a: Self::Logarithm, b: Self::Logarithm) -> Self {
-        call(Function::LogarithmOfRatio, [a.high, a.low, b.high, b.low], |[a, a_low, b, b_low]| {
-            let [a, b] = [(a, a_low), (b, b_low)].map(|(high, low)| Logarithm { high, low });
-            vec![elementary::logarithm_of_ratio(a, b)]
-        })
+        define("logarithm_of_ratio", (a, b), |(a, b)| elementary::logarithm_of_ratio(a, b))
     }
 
     fn abs(self) -> Self {
@@ -258,11 +311,11 @@ impl Real for Recorded {
     }
 
     fn max(self, other: Self) -> Self {
-        Self::select(other.less(self), self, other)
+        define("max", (self, other), |(a, b)| Self::select(b.less(a), a, b))
     }
 
     fn min(self, other: Self) -> Self {
-        Self::select(self.less(other), self, other)
+        define("min", (self, other), |(a, b)| Self::select(a.less(b), a, b))
     }
 
     fn copysign(self, sign: Self) -> Self {
@@ -282,13 +335,12 @@ impl Real for Recorded {
     }
 
     fn two_product(self, other: Self) -> (Self, Self) {
-        let operation =
-            RecordedOperation::Call(Function::ProductError, [Some(self.0), Some(other.0), None, None]);
-        (self * other, Self::of(operation))
+        let [error] = Self::primitive("product_error", &[self, other]);
+        (self * other, error)
     }
 
     fn power_of_two_scale(self) -> (Self, Self) {
-        elementary::power_of_two_scale(self)
+        define("power_of_two_scale", self, elementary::power_of_two_scale)
     }
 }
 
@@ -301,8 +353,8 @@ impl Primitive for Recorded {
     }
 
     fn split(self) -> (Self, Self) {
-        let called = Self::of(RecordedOperation::Call(Function::Split, [Some(self.0), None, None, None]));
-        (called, called.second())
+        let [mantissa, exponent] = Self::primitive("split", &[self]);
+        (mantissa, exponent)
     }
 
     fn scale(self, exponent: Self) -> Self {

@@ -30,7 +30,7 @@
 
 #![expect(non_snake_case, reason = "A, B, D as in the essay above")]
 
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Numbers, Real, Replace, Truth, stage};
 
 /// A right-handed orthonormal frame with one eigenvector of a symmetric matrix.
 pub(super) struct Deflation<R: Real> {
@@ -41,11 +41,23 @@ pub(super) struct Deflation<R: Real> {
     pub(super) is_largest: R::Mask,
 }
 
+impl<R: Real> Numbers<R> for Deflation<R> {
+    fn map(self, to: &mut impl Replace<R>) -> Self {
+        let (frame, Truth(is_largest)) = (self.frame, Truth(self.is_largest)).map(to);
+        Self { frame, is_largest }
+    }
+}
+
 /// Splits an eigenvector off the symmetric matrix with the entries a11, a22, a33, a12, a13, a23.
 ///
 /// Their squares must not overflow. Entries that are not finite make the frame NaN.
 #[inline(always)]
 pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
+    stage!(R, "deflation", (A) => deflation(A))
+}
+
+#[inline(always)]
+fn deflation<R: Real>(A: [R; 6]) -> Deflation<R> {
     let [one, two] = [R::splat(1.0), R::splat(2.0)];
     let [a11, a22, a33, a12, a13, a23] = A;
     let mean = (a11 + a22 + a33) * (one / R::splat(3.0));
@@ -105,6 +117,11 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
 /// tan θ = g / (d + √(d² + g²)) for d ≥ 0 and (−d + √(d² + g²)) / g for d < 0: no cancellation.
 #[inline(always)]
 pub(super) fn rotation<R: Real>(d: R, g: R) -> (R, R) {
+    stage!(R, "rotation", (d, g) => cosine_and_sine(d, g))
+}
+
+#[inline(always)]
+fn cosine_and_sine<R: Real>(d: R, g: R) -> (R, R) {
     // What is this small may keep its direction, but c = 1 where d = g = 0: the root is then twice that of
     // the smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
     let floor = R::splat(4.0 * R::min_positive());

@@ -5,7 +5,7 @@
 use super::invariants::invariants;
 use super::invariants::tangent::{Entries, Terms};
 use super::{Filter, Matrix3, evaluate};
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::Response;
 use crate::status::Status;
 
@@ -79,9 +79,13 @@ fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
 ) -> (R::Mask, DensePoint<R>) {
     let (invariants, is_in_range) = invariants(F, HAS_SECOND);
     let derivatives = material.derivatives_by_invariants(invariants);
-    let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(F, invariants, &derivatives);
-    let mut tangent = [[R::splat(0.0); 9]; 9];
-    let largest = terms.assemble(&Entries, &mut tangent);
-    let served = is_in_range & material.admits_invariants(invariants) & terms.keeps_digits(largest);
-    (served, DensePoint { stress: terms.stress(), tangent, status: Status::clean() })
+    let (F, name) = (*F, Terms::<R, HAS_SECOND, HAS_ALL>::TANGENT);
+    let (stress, tangent, Truth(keeps_digits)) = stage!(R, name, (F, invariants, derivatives) => {
+        let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives);
+        let mut tangent = [[R::splat(0.0); 9]; 9];
+        let largest = terms.assemble(&Entries, &mut tangent);
+        (terms.stress(), tangent, Truth(terms.keeps_digits(largest)))
+    });
+    let served = is_in_range & material.admits_invariants(invariants) & keeps_digits;
+    (served, DensePoint { stress, tangent, status: Status::clean() })
 }

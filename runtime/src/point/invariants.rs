@@ -24,7 +24,7 @@
 
 use super::Matrix3;
 use super::matrix::{dot, three};
-use crate::lanes::Real;
+use crate::lanes::{Real, Truth, stage};
 
 pub(crate) mod tangent;
 
@@ -32,6 +32,14 @@ pub(crate) mod tangent;
 /// zero if it is not requested.
 #[inline(always)]
 pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], R::Mask) {
+    let F = *F;
+    let name = if has_second { "invariants" } else { "invariants_without_I2" };
+    let (invariants, Truth(is_in_range)) = stage!(R, name, (F) => in_range(&F, has_second));
+    (invariants, is_in_range)
+}
+
+#[inline(always)]
+fn in_range<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], Truth<R::Mask>) {
     let I1 = square(F);
     let normal = exact_minors(F);
     let terms = three!(j => F[0][j] * normal[j]);
@@ -52,7 +60,7 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], 
     let size = terms[0].abs() + terms[1].abs() + terms[2].abs();
     let smallest = R::splat(1024.0 * R::unit_roundoff()).mul_add(size, threshold.mul_add(I1 * I1, threshold));
     let room = (I1 - low).min(high - I1).min(J.abs() - smallest);
-    ([I1, I2, J], R::splat(0.0).less(room))
+    ([I1, I2, J], Truth(R::splat(0.0).less(room)))
 }
 
 /// Minors of the first row of F, each within 2u of itself if no product underflows.
@@ -74,13 +82,15 @@ fn square<R: Real>(A: &Matrix3<R>) -> R {
 
 /// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 counts as zero.
 #[inline(always)]
-pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(
-    F: &Matrix3<R>,
-    [W1, W2, WJ]: [R; 3],
-) -> Matrix3<R> {
-    let C = cofactor(F);
-    let D = if HAS_SECOND { cross(&C, F) } else { C };
-    stress_of_terms::<R, HAS_SECOND>([F, &D, &C], [W1 + W1, W2 + W2, WJ])
+pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(F: &Matrix3<R>, W: [R; 3]) -> Matrix3<R> {
+    let F = *F;
+    let name = if HAS_SECOND { "stress_by_invariants" } else { "stress_by_invariants_without_I2" };
+    stage!(R, name, (F, W) => {
+        let C = cofactor(&F);
+        let D = if HAS_SECOND { cross(&C, &F) } else { C };
+        let [W1, W2, WJ] = W;
+        stress_of_terms::<R, HAS_SECOND>([&F, &D, &C], [W1 + W1, W2 + W2, WJ])
+    })
 }
 
 /// True if P by these derivatives is finite whenever the invariants are in range: entries of F, C and D are

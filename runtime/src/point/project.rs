@@ -43,7 +43,7 @@
 
 use super::deflation::{Deflation, deflate};
 use super::matrix::{dot, multiply_symmetric, three};
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::{Blocks, PAIRS};
 
 /// Treatment of the negative eigenvalues of dP/dF.
@@ -89,7 +89,20 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
         return (*blocks, R::Mask::splat(false));
     }
     let slope = filter.slope();
-    let Blocks { gradient, hessian, mut flip, mut twist } = *blocks;
+    let Blocks { gradient, hessian, flip, twist } = *blocks;
+    let (hessian, flip, twist, Truth(is_filtered)) =
+        stage!(R, "filter", (hessian, flip, twist, slope) => all_filtered(hessian, flip, twist, slope));
+    (Blocks { gradient, hessian, flip, twist }, is_filtered)
+}
+
+/// Hessian, flips and twists after a filter of this slope, and whether it has changed any.
+#[inline(always)]
+fn all_filtered<R: Real>(
+    hessian: [R; 6],
+    mut flip: [R; 3],
+    mut twist: [R; 3],
+    slope: R,
+) -> ([R; 6], [R; 3], [R; 3], Truth<R::Mask>) {
     let mut largest = R::splat(0.0);
     for k in 0..6 {
         largest = hessian[k].abs().max(largest);
@@ -101,7 +114,7 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
         (flip[k], twist[k]) = (filtered(flip[k], slope), filtered(twist[k], slope));
     }
     let is_filtered = smallest.less(R::splat(-16.0 * R::unit_roundoff()) * largest);
-    (Blocks { gradient, hessian, flip, twist }, is_filtered)
+    (hessian, flip, twist, Truth(is_filtered))
 }
 
 /// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, if it is
@@ -121,7 +134,8 @@ fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     if !(!definite).any() {
         return (A, zero);
     }
-    let ([p11, p22, p33, p12, p13, p23], smallest) = filtered_indefinite(scaled, slope);
+    let ([p11, p22, p33, p12, p13, p23], smallest) =
+        stage!(R, "filtered_indefinite", (scaled, slope) => filtered_indefinite(scaled, slope));
     let indefinite = !definite & smallest.less(zero);
     let projected = [
         R::select(indefinite, p11 * back, a11),

@@ -25,7 +25,7 @@
 use super::Matrix3;
 use super::deflation::{Deflation, deflate, rotation};
 use super::matrix::{dot, three, transpose};
-use crate::lanes::{Mask, Real};
+use crate::lanes::{Mask, Numbers, Real, Replace, stage};
 
 #[cfg(test)]
 mod tests;
@@ -42,6 +42,13 @@ pub struct Svd<R> {
     pub V: Matrix3<R>,
 }
 
+impl<R: Real> Numbers<R> for Svd<R> {
+    fn map(self, to: &mut impl Replace<R>) -> Self {
+        let (U, stretches, V) = (self.U, self.stretches, self.V).map(to);
+        Self { U, stretches, V }
+    }
+}
+
 /// Decomposes F; see [`Svd`].
 ///
 /// Backward error ‖F − U diag(λ) Vᵀ‖ ≤ 24 u λ1 in the Frobenius norm, and no entry of UᵀU − I or VᵀV − I
@@ -55,7 +62,8 @@ pub struct Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    aligned(F, unaligned(F))
+    let F = *F;
+    stage!(R, "decomposition", (F) => aligned(&F, unaligned(&F)))
 }
 
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
@@ -67,7 +75,10 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 #[inline(always)]
 #[must_use]
 pub fn svd_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    aligned(F, unaligned_signed_by_determinant(F))
+    let F = *F;
+    stage!(R, "decomposition_signed_by_determinant", (F) => {
+        aligned(&F, unaligned_signed_by_determinant(&F))
+    })
 }
 
 /// [`svd()`], of which [`aligned`] is to follow.
@@ -84,7 +95,11 @@ pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R>
     let (F, back) = scaled(F);
     let (U, [s1, s2, s3], V) = decompose(&F);
     let area = s1 * s2;
-    let s3 = R::select(R::splat(R::min_positive()).less(area), determinant(&F) / area, s3);
+    let s3 = R::select(
+        R::splat(R::min_positive()).less(area),
+        stage!(R, "determinant", (F) => determinant(&F)) / area,
+        s3,
+    );
     // λ2 and the quotient are rounded independently, which must not disturb their order.
     let s3 = s3.abs().min(s2).copysign(s3);
     Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
@@ -93,7 +108,12 @@ pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R>
 /// The decomposition with every axis that F maps to itself made exact; see [`along_axes`].
 #[inline(always)]
 pub(crate) fn aligned<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
-    if may_have_axis(F).any() { along_axes(F, svd) } else { svd }
+    if may_have_axis(F).any() {
+        let F = *F;
+        stage!(R, "along_axes", (F, svd) => along_axes(&F, svd))
+    } else {
+        svd
+    }
 }
 
 /// False only if F maps no axis to itself. If it does so with axis k, Fkk is alone in its row and column, and
@@ -159,10 +179,13 @@ fn scaled<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, R) {
 /// U, λ, V of a matrix scaled to a magnitude between 1 and 2.
 #[inline(always)]
 fn decompose<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
-    let V = right(F);
-    let columns = three!(k => three!(i => dot(F[i], V[k])));
-    let (U, stretches) = left(&columns);
-    (U, descending(stretches), transpose(&V))
+    let F = *F;
+    stage!(R, "scaled_decomposition", (F) => {
+        let V = right(&F);
+        let columns = three!(k => three!(i => dot(F[i], V[k])));
+        let (U, stretches) = left(&columns);
+        (U, descending(stretches), transpose(&V))
+    })
 }
 
 /// The columns of V, in the order of descending stretches.

@@ -107,7 +107,7 @@
 
 use super::Matrix3;
 use super::matrix::{dot, three, to_principal, to_world};
-use crate::lanes::Real;
+use crate::lanes::{Real, stage};
 use crate::material::{Blocks, PAIRS};
 
 /// dP/dF at a point, as frames and the numbers between them.
@@ -137,9 +137,12 @@ impl<R: Real> Tangent<R> {
     #[inline(always)]
     #[must_use]
     pub fn to_matrix(&self) -> [[R; 9]; 9] {
-        let mut dP_dF = [[R::splat(0.0); 9]; 9];
-        assemble_blocks(&self.U, &self.V, &self.blocks, &mut dP_dF);
-        dP_dF
+        let Self { U, V, blocks: Blocks { gradient, hessian, flip, twist } } = *self;
+        stage!(R, "tangent_in_frames", (U, V, hessian, flip, twist) => {
+            let mut dP_dF = [[R::splat(0.0); 9]; 9];
+            assemble_blocks(&U, &V, &Blocks { gradient, hessian, flip, twist }, &mut dP_dF);
+            dP_dF
+        })
     }
 }
 

@@ -1,9 +1,10 @@
-//! Every energy is printed as C, which compilers of C and C++ read without a warning.
+//! Every energy is printed as C, which compilers of C and C++ read without a warning, also where two energies
+//! are in one program: the functions that belong to all energies are the same in both.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use piola_declare::emit::{Emission, EmitError, PointFunction, Target};
+use piola_declare::emit::{Emission, EmitError, Target};
 use piola_tests::declarations::{Sample, slices};
 use piola_tests::is_full;
 
@@ -14,16 +15,15 @@ const COMPILERS: [[&str; 3]; 3] =
 
 const STRICT: [&str; 6] = ["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
 
-/// Judges all functions by all compilers that there are, or, unless all is judged, two functions by one.
+/// Judges all functions by all compilers that there are, or, unless all is judged, by one.
 pub(crate) fn judge(sample: &Sample) {
     let Some(values) = sample.values().into_iter().next() else { return };
     for inversion in sample.judged.inversions(0.3) {
-        let mut emission = Emission { prefix: Some("energy".into()), ..Emission::new(Target::C) };
-        if !is_full() {
-            // By invariants and by a decomposition, and the energy as it is.
-            emission.functions = vec![PointFunction::Tangent, PointFunction::Blocks];
-        }
-        let text = match sample.judged.energy.emit(&slices(&values), inversion, &emission) {
+        let emit = |prefix: &str| {
+            let emission = Emission { prefix: Some(prefix.into()), ..Emission::new(Target::C) };
+            sample.judged.energy.emit(&slices(&values), inversion, &emission)
+        };
+        let text = match emit("energy").and_then(|text| Ok(text + &emit("other")?)) {
             Ok(text) => text,
             Err(EmitError::Function(name)) => {
                 assert!(sample.has_functions(), "{name} is a function");

@@ -7,10 +7,18 @@ use crate::emit::Target;
 const C: &str = include_str!("primitives.c");
 const WGSL: &str = include_str!("primitives.wgsl");
 
-/// The needed parts of a file, each of which follows a line `//@` with its name.
-fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> String {
+/// The needed parts of a file, each of which follows a line `//@` with its name, the function first.
+fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> Vec<(&str, String)> {
     let parts = file.split("//@ ").filter_map(|part| part.split_once('\n'));
-    parts.filter(|(name, _)| is_needed(name)).map(|(_, text)| text).collect()
+    let mut functions: Vec<(&str, String)> = Vec::new();
+    for (name, text) in parts.filter(|(name, _)| is_needed(name)) {
+        let function = name.split(' ').next().unwrap_or(name);
+        match functions.last_mut() {
+            Some((last, whole)) if *last == function => whole.push_str(text),
+            _ => functions.push((function, text.to_owned())),
+        }
+    }
+    functions
 }
 
 impl Language {
@@ -23,28 +31,36 @@ impl Language {
             Target::OpenCl => ("head of opencl", (!self.is_single).then_some("head of opencl in double")),
             Target::Wgsl => return String::new(),
         };
-        self.filled(&parts(C, |part| part == "head" || part == of_target || Some(part) == of_double))
+        let parts = parts(C, |part| part == "head" || part == of_target || Some(part) == of_double);
+        parts.into_iter().map(|(_, text)| self.filled(&text)).collect()
     }
 
     /// Functions that programs are made of, those that a text calls.
     pub(in crate::emit) fn primitives(&self, text: &str) -> String {
         // Each part has the name of its function; `all` is always needed.
-        let is_called = |part: &str| part == "all" || text.contains(&format!("{}_{part}(", self.prefix));
+        let is_called = |part: &str| part == "all" || text.contains(&format!("{}_{part}(", self.shared));
         let target = self.target;
         if target == Target::Wgsl {
-            return parts(WGSL, is_called).replace("{prefix}", &self.prefix);
+            let parts = parts(WGSL, is_called).into_iter();
+            return parts.map(|(_, text)| text.replace("{prefix}", &self.shared)).collect();
         }
         let has_bits = ["is_finite", "scale", "split", "leading_power", "reciprocal_of_power"];
         let has_bits = target == Target::Cuda || has_bits.into_iter().any(is_called);
         let is_in_double = self.is_single && target != Target::OpenCl;
-        self.filled(&parts(C, |part| match part {
+        let parts = parts(C, |part| match part {
             "bits of opencl" => target == Target::OpenCl,
             "bits" => target != Target::OpenCl && has_bits,
             "is_exact on a device" => target == Target::Cuda,
             "product_error in double" => is_in_double && is_called("product_error"),
             "product_error by halves" => !is_in_double && is_called("product_error"),
             part => is_called(part),
-        }))
+        });
+        let once = |(function, text): (&str, String)| match function {
+            // Macros may be defined again.
+            "all" => self.filled(&text),
+            function => self.once(function, &self.filled(&text)),
+        };
+        parts.into_iter().map(once).collect()
     }
 
     /// A part in C with the words of the dialect and the numbers of the format.
@@ -68,8 +84,8 @@ impl Language {
         };
         let infinity_bits = if is_of_opencl { "0x7ff0000000000000UL" } else { "0x7ff0000000000000ull" };
         let words = [
-            ("{prefix}", self.prefix.clone()),
-            ("{upper}", self.upper.clone()),
+            ("{prefix}", self.shared.clone()),
+            ("{upper}", self.upper()),
             ("{number}", number.to_owned()),
             ("{bits}", bits.to_owned()),
             ("{signed}", signed.to_owned()),

@@ -2,14 +2,12 @@
 
 use std::fmt::Write;
 
-use piola::__private::record::Recording;
 use piola::__private::{Condition, Term};
 use piola::material::Form;
 
-use super::body::Body;
 use super::{Printer, safe};
 use crate::emit::Precision;
-use crate::emit::language::{Argument, Kind};
+use crate::emit::language::Kind;
 
 impl Printer<'_> {
     /// A check of the parameters, by the conditions of the declaration.
@@ -21,7 +19,7 @@ impl Printer<'_> {
         // Each with what is said of it, statements before it, and the condition under which all is well. The
         // others mean something only with the arithmetic that the first tests.
         let meaning = "options of the compiler change sums or comparisons, see above".to_owned();
-        let mut cases = vec![(meaning, String::new(), format!("{}_is_exact()", file.prefix))];
+        let mut cases = vec![(meaning, String::new(), format!("{}()", language.name_of("is_exact", false)))];
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let numbers: Vec<_> = places.by_ref().take(values.len()).cloned().collect();
             if !matches!(parameter.form, Form::Exponent | Form::Exponents) && !numbers.is_empty() {
@@ -40,23 +38,19 @@ impl Printer<'_> {
                 cases.push((format!("not {}", safe(&condition.text)), String::new(), holds.join(" && ")));
             }
         }
-        let Recording { program, .. } = &file.rest;
-        let body = Body::new(self, program, Vec::new());
-        let mut results = program.results.iter().map(|&id| body.operand(id));
-        let mut statements = body.statements();
-        if let (false, Some(shear), Some(bulk)) =
-            (file.energy.is_prestressed(), results.next(), results.next())
-        {
+        let mut statements = language.variables(Kind::Number, &["shear".into(), "bulk".into()], "    ");
+        let call = format!("{}(p, &shear, &bulk)", language.name_of("at_rest", true));
+        let _ = writeln!(statements, "    {}", language.constant(Kind::Truth, "is_inside", &call));
+        if !file.energy.is_prestressed() {
             // The constructor has the moduli by a formula, without the roundings of derivatives.
             let rounding = language.literal(if file.precision == Precision::F32 { 1e-5 } else { 1e-13 });
-            let (zero, is_finite) = (language.literal(0.0), language.is_finite(&bulk));
-            let condition = format!("{shear} > {zero} && {bulk} >= -{rounding} * {shear} && {is_finite}");
+            let (zero, is_finite) = (language.literal(0.0), language.is_finite("bulk"));
+            let condition = format!("shear > {zero} && bulk >= -{rounding} * shear && {is_finite}");
             let meaning = "at rest, the solid does not resist shear or changes of volume".to_owned();
             cases.push((meaning, std::mem::take(&mut statements), condition));
         }
-        if let Some(inside) = results.next().filter(|inside| *inside != language.truth(true)) {
-            cases.push(("the rest state is outside of the domain".to_owned(), statements, inside));
-        }
+        let meaning = "the rest state is outside of the domain".to_owned();
+        cases.push((meaning, statements, "is_inside".to_owned()));
         let mut list =
             "/* Returns 0 if the parameters are admissible, else the first of these that is true:\n"
                 .to_owned();
@@ -66,10 +60,7 @@ impl Printer<'_> {
             statements += before;
             statements += &language.return_unless(condition, k + 1);
         }
-        if !self.parameters.iter().any(|place| statements.contains(place)) {
-            statements.insert_str(0, language.parameters_are_unused());
-        }
-        let head = language.head("check", &[Argument::Parameters], Kind::Status);
+        let head = language.head_of_check();
         format!("{list} */\n{head}\n{statements}    return 0u;\n}}\n\n")
     }
 

@@ -1,6 +1,6 @@
 //! Recorded programs as data.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 
 use crate::lanes::real::Real;
 
@@ -8,7 +8,7 @@ use crate::lanes::real::Real;
 pub type Id = u32;
 
 /// An operation of a program, on results of operations before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum RecordedOperation {
     /// An argument of the program.
     Argument(u32),
@@ -36,10 +36,10 @@ pub enum RecordedOperation {
     Or(Id, Id),
     /// The second value where the first holds, else the third.
     Select(Id, Id, Id),
-    /// The results of a function, at most four arguments.
-    Call(Function, [Option<Id>; 4]),
-    /// The second result of a call; the call itself stands for the first.
-    Second(Id),
+    /// A call of a function; its results are parts of it.
+    Call(&'static str, Box<[Id]>),
+    /// A result of a call, a number or a truth value.
+    Part(Id, usize),
 }
 
 /// Operations with one operand.
@@ -74,70 +74,9 @@ pub enum Binary {
     Scale,
 }
 
-macro_rules! functions {
-    ($($Function:ident $method:ident $name:literal),* $(,)?) => {
-        /// Functions of a program: the elementary ones, and two that they are made of.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Function {
-            $(
-                #[doc = concat!("[`Real::", stringify!($method), "`].")]
-                $Function,
-            )*
-            /// [`Real::logarithm`], of which both parts are results.
-            Logarithm,
-            /// [`Real::power`], from both parts of the logarithm and the exponent.
-            Power,
-            /// [`Real::logarithm_of_ratio`], from both parts of both logarithms.
-            LogarithmOfRatio,
-            /// The rounding error of a product: [`Real::two_product`]. It has no program.
-            ProductError,
-            /// Mantissa between √½ and √2, and exponent of two. It has no program.
-            Split,
-        }
-
-        impl Function {
-            /// A name in lower case.
-            #[must_use]
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$Function => $name,)*
-                    Self::Logarithm => "logarithm",
-                    Self::Power => "power",
-                    Self::LogarithmOfRatio => "logarithm_of_ratio",
-                    Self::ProductError => "product_error",
-                    Self::Split => "split",
-                }
-            }
-
-            /// True if there is a second result.
-            #[must_use]
-            pub fn is_pair(self) -> bool {
-                matches!(self, Self::Logarithm | Self::Split)
-            }
-        }
-
-        /// Methods that call a function of one argument.
-        macro_rules! calls {
-            () => {$(
-                fn $method(self) -> Self {
-                    call(Function::$Function, [self], |[x]| vec![elementary::$method(x)])
-                }
-            )*};
-        }
-    };
-}
-functions! {
-    Cbrt cbrt "cbrt", Ln ln "ln", Exp exp "exp", Ln1p ln_1p "ln_1p", ExpM1 exp_m1 "exp_m1", Sinh sinh "sinh",
-    Cosh cosh "cosh", Tanh tanh "tanh", Asinh asinh "asinh", Sin sin "sin", Cos cos "cos", Atan atan "atan",
-    Erf erf "erf", Softplus softplus "softplus", Sigmoid sigmoid "sigmoid",
-}
-pub(super) use calls;
-
 /// A straight-line program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedProgram {
-    /// Number of arguments, those that no operation reads included.
-    pub arguments: usize,
     /// Operations in an order in which they can be executed; all are needed.
     pub operations: Vec<RecordedOperation>,
     /// The results.
@@ -147,21 +86,21 @@ pub struct RecordedProgram {
     pub guards: HashSet<Id>,
 }
 
-/// A program and the functions that it calls.
+/// A program with a name, by which others call it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
+pub struct RecordedFunction {
+    /// The name.
+    pub name: &'static str,
     /// The program.
     pub program: RecordedProgram,
-    /// Programs of the functions that it calls, and of those that they call.
-    pub functions: BTreeMap<Function, RecordedProgram>,
 }
 
 impl RecordedOperation {
     /// The operation on other operands.
     #[must_use]
-    pub(super) fn with_operands(self, mut map: impl FnMut(Id) -> Id) -> Self {
-        match self {
-            Self::Argument(_) | Self::Parameter(_) | Self::Literal(_) | Self::Truth(_) => self,
+    pub(super) fn with_operands(&self, mut map: impl FnMut(Id) -> Id) -> Self {
+        match *self {
+            Self::Argument(_) | Self::Parameter(_) | Self::Literal(_) | Self::Truth(_) => self.clone(),
             Self::Unary(operator, a) => Self::Unary(operator, map(a)),
             Self::Binary(operator, a, b) => Self::Binary(operator, map(a), map(b)),
             Self::MulAdd(a, b, c) => Self::MulAdd(map(a), map(b), map(c)),
@@ -171,10 +110,10 @@ impl RecordedOperation {
             Self::And(a, b) => Self::And(map(a), map(b)),
             Self::Or(a, b) => Self::Or(map(a), map(b)),
             Self::Select(mask, yes, no) => Self::Select(map(mask), map(yes), map(no)),
-            Self::Call(function, arguments) => {
-                Self::Call(function, arguments.map(|argument| argument.map(&mut map)))
+            Self::Call(name, ref arguments) => {
+                Self::Call(name, arguments.iter().map(|&argument| map(argument)).collect())
             }
-            Self::Second(call) => Self::Second(map(call)),
+            Self::Part(call, k) => Self::Part(map(call), k),
         }
     }
 

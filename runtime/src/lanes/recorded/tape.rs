@@ -15,13 +15,13 @@ pub(super) struct Tape {
 impl Tape {
     fn push(&mut self, operation: RecordedOperation) -> Id {
         let Self { operations, places, .. } = self;
-        *places.entry(operation).or_insert_with(|| {
-            operations.push(operation);
+        *places.entry(operation).or_insert_with_key(|operation| {
+            operations.push(operation.clone());
             operations.len() as Id - 1
         })
     }
 
-    fn literal(&self, id: Id) -> Option<f64> {
+    pub(super) fn literal(&self, id: Id) -> Option<f64> {
         match self.operations[id as usize] {
             RecordedOperation::Literal(bits) => Some(f64::from_bits(bits)),
             _ => None,
@@ -41,6 +41,15 @@ impl Tape {
             RecordedOperation::Not(guard) if self.guards.contains(&guard) => Some(guard),
             _ => None,
         }
+    }
+
+    /// The values of a selection, which may be selections by the same mask.
+    fn selected(&self, mask: Id, [yes, no]: [Id; 2]) -> [Id; 2] {
+        let inner = |id: Id| match self.operations[id as usize] {
+            RecordedOperation::Select(other, yes, no) if other == mask => [yes, no],
+            _ => [id; 2],
+        };
+        [inner(yes)[0], inner(no)[1]]
     }
 
     /// A truth value where a guard does not hold, false where it does.
@@ -87,6 +96,10 @@ impl Tape {
                     _ => None,
                 }
             }
+            Select(mask, yes, no) if self.selected(mask, [yes, no]) != [yes, no] => {
+                let [yes, no] = self.selected(mask, [yes, no]);
+                return self.simplified(format, Select(mask, yes, no));
+            }
             Select(_, yes, no) if yes == no => return yes,
             Select(mask, yes, no) => match self.operations[mask as usize] {
                 Truth(truth) => return if truth { yes } else { no },
@@ -121,7 +134,6 @@ impl Tape {
         }
         let moved = |id: Id| places[id as usize];
         RecordedProgram {
-            arguments: 0,
             operations,
             results: results.into_iter().map(moved).collect(),
             guards: self.guards.into_iter().filter(|&id| is_needed[id as usize]).map(moved).collect(),

@@ -187,6 +187,23 @@ pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool> {
 }
 
 impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, HAS_ALL> {
+    /// Name of the stage from these terms to P and dP/dF.
+    pub(crate) const TANGENT: &'static str = match (HAS_SECOND, HAS_ALL) {
+        (true, true) => "tangent_by_invariants",
+        (true, false) => "tangent_by_invariants_without_mixed",
+        (false, true) => "tangent_by_invariants_without_I2",
+        (false, false) => "tangent_by_invariants_without_I2_and_mixed",
+    };
+
+    /// Name of the stage from these terms to the gradient and stiffness of a tetrahedron.
+    #[cfg(all(feature = "interpreter", not(test)))]
+    pub(crate) const STIFFNESS: &'static str = match (HAS_SECOND, HAS_ALL) {
+        (true, true) => "stiffness_by_invariants",
+        (true, false) => "stiffness_by_invariants_without_mixed",
+        (false, true) => "stiffness_by_invariants_without_I2",
+        (false, false) => "stiffness_by_invariants_without_I2_and_mixed",
+    };
+
     /// The terms at F with its invariants, and W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J there.
     #[inline(always)]
     pub(crate) fn new(F: &Matrix3<R>, invariants: [R; 3], derivatives: &[R; 9]) -> Self {
