@@ -115,19 +115,20 @@ impl PointFunction {
     /// Word for the function, the last part of its name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Energy => "energy",
-            Self::Stress => "stress",
-            Self::Tangent => "tangent",
-            Self::Projected => "projected",
-            Self::Absolute => "absolute",
-            Self::Tetrahedron => "tetrahedron",
-            Self::ProjectedTetrahedron => "projected_tetrahedron",
-            Self::Vertex => "vertex",
-            Self::ProjectedVertex => "projected_vertex",
-            Self::Blocks => "blocks",
-            Self::Svd => "svd",
-        }
+        const NAMES: [&str; PointFunction::ALL.len()] = [
+            "energy",
+            "stress",
+            "tangent",
+            "projected",
+            "absolute",
+            "tetrahedron",
+            "projected_tetrahedron",
+            "vertex",
+            "projected_vertex",
+            "blocks",
+            "svd",
+        ];
+        NAMES[self as usize]
     }
 }
 
@@ -261,11 +262,10 @@ impl Energy {
             return Err(EmitError::Precision);
         }
         // In `f32` a file has the numbers that are nearest, for which the conditions must hold as well.
-        let (format, nearest): (_, fn(&f64) -> f64) = match emission.precision {
-            Precision::F64 => (record::Format::F64, |&x| x),
-            Precision::F32 => (record::Format::F32, |&x| f64::from(x as f32)),
-        };
-        let rounded: Vec<Vec<f64>> = values.iter().map(|list| list.iter().map(nearest).collect()).collect();
+        let is_single = emission.precision == Precision::F32;
+        let format = if is_single { record::Format::F32 } else { record::Format::F64 };
+        let nearest = |list: &&[f64]| list.iter().map(|&x| format.rounded(x)).collect();
+        let rounded: Vec<Vec<f64>> = values.iter().map(nearest).collect();
         let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
         let material = self.with_marked_parameters(&self.material(&values, inversion)?);
         let Emission { target, precision, .. } = *emission;
@@ -306,16 +306,11 @@ fn define_function(function: PointFunction, material: &Interpreted) {
         });
     };
     let tetrahedron = |filter| {
-        define(name, ([[zero; 3]; 4], [zero; 10]), |(nodes, rest)| {
-            let element = evaluate_tetrahedron(material, nodes, rest, filter);
-            (element.gradient, element.stiffness, element.status)
-        });
+        let inputs = ([[zero; 3]; 4], [zero; 10]);
+        define(name, inputs, |(nodes, rest)| evaluate_tetrahedron(material, nodes, rest, filter));
     };
     let vertex = |filter| {
-        define(name, (F, [zero; 4]), |(F, rest)| {
-            let vertex = evaluate_vertex(material, &F, rest, filter);
-            (vertex.gradient, vertex.stiffness, vertex.status)
-        });
+        define(name, (F, [zero; 4]), |(F, rest)| evaluate_vertex(material, &F, rest, filter));
     };
     match function {
         PointFunction::Energy => {

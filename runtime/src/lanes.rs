@@ -22,7 +22,6 @@ mod real;
 #[cfg(all(feature = "interpreter", not(test)))]
 pub(crate) mod recorded;
 mod scalar;
-mod stage;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -33,10 +32,10 @@ pub use backend::Kernel;
 pub(crate) use complement::scaled_complement;
 #[doc(hidden)] // in place of the registers of a processor
 pub use lanes2::Lanes2;
+pub(crate) use real::stage;
 pub use real::{Mask, Real};
 #[doc(hidden)] // for recorded programs
 pub use real::{Numbers, Replace, Truth};
-pub(crate) use stage::stage;
 #[doc(hidden)] // how the interpreter is compiled once for each format
 pub use vector::ByFormat;
 #[doc(hidden)] // for kernels

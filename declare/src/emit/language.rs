@@ -20,6 +20,15 @@ const RESERVED_IN_C: &str = include_str!("language/reserved_in_c.txt");
 /// Keywords and reserved words of WGSL.
 const RESERVED_IN_WGSL: &str = include_str!("language/reserved_in_wgsl.txt");
 
+/// A file of C. The attribute `unused` is for clang and nvcc, which warn of functions that are not called,
+/// `inline` or not.
+const FILE: &str = include_str!("language/file.c");
+
+/// The structure of the parameters, and the values that a file was made with.
+const PARAMETERS_IN_C: &str =
+    "typedef struct {\n{fields}} {prefix}_parameters;\n\n#define {upper}_EXAMPLE {{example}}\n\n";
+const PARAMETERS_IN_WGSL: &str = "struct {prefix}_parameters {\n{fields}}\n\nfn {prefix}_example() -> {prefix}_parameters {\n    return {prefix}_parameters({example});\n}\n\n";
+
 /// The type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -222,70 +231,48 @@ impl Language {
         o: &dyn Fn(Id) -> String,
         atom: &dyn Fn(Id) -> String,
     ) -> (String, bool) {
-        let shared = &self.shared;
+        use RecordedOperation::{And, IsZero, Less, MulAdd, Not, Or, Select};
         let (is_c, suffix) = (self.is_c(), self.suffix());
-        let two = |a: Id, operator: &str, b: Id| format!("{} {operator} {}", atom(a), atom(b));
-        let text = match *operation {
-            RecordedOperation::Unary(Unary::Negate, a) => format!("-{}", atom(a)),
-            RecordedOperation::Binary(operator @ (Binary::Add | Binary::Subtract), a, b) => {
-                let text = self.rounded(two(a, if operator == Binary::Add { "+" } else { "-" }, b));
-                return (text, is_c);
-            }
-            RecordedOperation::Binary(operator @ (Binary::Multiply | Binary::Divide), a, b) => {
-                let text = self.rounded(two(a, if operator == Binary::Multiply { "*" } else { "/" }, b));
-                return (text, is_c);
-            }
-            RecordedOperation::Less(a, b) if o(b) == self.literal(f64::INFINITY) => {
-                return (self.is_finite(&o(a)), false);
-            }
-            RecordedOperation::Less(a, b) => two(a, "<", b),
-            RecordedOperation::IsZero(a) => format!("{} == 0{}", atom(a), if is_c { "" } else { ".0f" }),
-            RecordedOperation::Not(a) => return (format!("!{}", atom(a)), false),
-            RecordedOperation::And(a, b) => two(a, "&", b),
-            RecordedOperation::Or(a, b) => two(a, "|", b),
-            RecordedOperation::Select(mask, yes, no) if is_c => {
-                format!("{} ? {} : {}", atom(mask), atom(yes), atom(no))
-            }
-            RecordedOperation::Select(mask, yes, no) => {
-                return (format!("select({}, {}, {})", o(no), o(yes), o(mask)), false);
-            }
-            ref operation => return (self.called(operation, o, shared, suffix), false),
-        };
-        (text, true)
-    }
-
-    /// The text of an operation that is a call in the language.
-    fn called(
-        &self,
-        operation: &RecordedOperation,
-        o: &dyn Fn(Id) -> String,
-        shared: &str,
-        suffix: &str,
-    ) -> String {
-        let is_c = self.is_c();
+        let infix = |a: Id, operator: &str, b: Id| format!("{} {operator} {}", atom(a), atom(b));
         match *operation {
-            RecordedOperation::Unary(operator, a) => match operator {
-                Unary::Absolute if is_c => format!("fabs{suffix}({})", o(a)),
-                Unary::Absolute => format!("abs({})", o(a)),
-                Unary::SquareRoot => self.rounded(format!("sqrt{suffix}({})", o(a))),
-                Unary::LeadingPower => format!("{shared}_leading_power({})", o(a)),
-                _ => format!("{shared}_reciprocal_of_power({})", o(a)),
-            },
+            RecordedOperation::Unary(Unary::Negate, a) => (format!("-{}", atom(a)), true),
+            RecordedOperation::Unary(Unary::Absolute, a) if is_c => {
+                (format!("fabs{suffix}({})", o(a)), false)
+            }
+            RecordedOperation::Unary(Unary::Absolute, a) => (format!("abs({})", o(a)), false),
+            RecordedOperation::Unary(Unary::SquareRoot, a) => {
+                (self.rounded(format!("sqrt{suffix}({})", o(a))), false)
+            }
             // Warp's compiler has none.
-            RecordedOperation::Binary(Binary::CopySign, a, b)
-                if matches!(self.target, Target::Cuda | Target::Wgsl) =>
-            {
-                format!("{shared}_copysign({}, {})", o(a), o(b))
-            }
             RecordedOperation::Binary(Binary::CopySign, a, b) => {
-                format!("copysign{suffix}({}, {})", o(a), o(b))
+                let name = match self.target {
+                    Target::Cuda | Target::Wgsl => self.name_of("copysign", false),
+                    Target::C | Target::OpenCl => format!("copysign{suffix}"),
+                };
+                (format!("{name}({}, {})", o(a), o(b)), false)
             }
-            RecordedOperation::Binary(_, a, b) => format!("{shared}_scale({}, {})", o(a), o(b)),
-            RecordedOperation::MulAdd(a, b, c) => {
+            RecordedOperation::Binary(operator, a, b) => {
+                let sign = match operator {
+                    Binary::Add => "+",
+                    Binary::Subtract => "-",
+                    Binary::Multiply => "*",
+                    _ => "/",
+                };
+                (self.rounded(infix(a, sign, b)), is_c)
+            }
+            MulAdd(a, b, c) => {
                 let function = if is_c { format!("{}_MUL_ADD", self.upper()) } else { "fma".to_owned() };
-                self.rounded(format!("{function}({}, {}, {})", o(a), o(b), o(c)))
+                (self.rounded(format!("{function}({}, {}, {})", o(a), o(b), o(c))), false)
             }
-            _ => String::new(),
+            Less(a, b) if o(b) == self.literal(f64::INFINITY) => (self.is_finite(&o(a)), false),
+            Less(a, b) => (infix(a, "<", b), true),
+            IsZero(a) => (format!("{} == 0{}", atom(a), if is_c { "" } else { ".0f" }), true),
+            Not(a) => (format!("!{}", atom(a)), false),
+            And(a, b) => (infix(a, "&", b), true),
+            Or(a, b) => (infix(a, "|", b), true),
+            Select(mask, yes, no) if is_c => (format!("{} ? {} : {}", atom(mask), atom(yes), atom(no)), true),
+            Select(mask, yes, no) => (format!("select({}, {}, {})", o(no), o(yes), o(mask)), false),
+            _ => (String::new(), false),
         }
     }
 
@@ -302,7 +289,10 @@ impl Language {
     pub(super) fn head(&self, signature: &Signature, is_inlined: bool) -> String {
         let mut list = Vec::new();
         if signature.is_of_energy {
-            list.push(self.declared_parameters());
+            list.push(match self.is_c() {
+                true => format!("const {}_parameters *p", self.prefix),
+                false => format!("p: {}_parameters", self.prefix),
+            });
         }
         for &Value { name, length } in &signature.inputs {
             let constant = if self.is_c() && length.is_some() { "const " } else { "" };
@@ -323,17 +313,7 @@ impl Language {
             Returned::Truth(_) => Some(self.type_of(Kind::Truth)),
             Returned::Status => Some(self.type_of(Kind::Status)),
         };
-        self.first_line(&self.name_of(signature.name, signature.is_of_energy), &list, returned, is_inlined)
-    }
-
-    /// The first line of the check of the parameters.
-    pub(super) fn head_of_check(&self) -> String {
-        let status = Some(self.type_of(Kind::Status));
-        self.first_line(&self.name_of("check", true), &[self.declared_parameters()], status, false)
-    }
-
-    fn first_line(&self, name: &str, list: &[String], returned: Option<&str>, is_inlined: bool) -> String {
-        let list = list.join(", ");
+        let (name, list) = (self.name_of(signature.name, signature.is_of_energy), list.join(", "));
         match (self.is_c(), returned) {
             (true, _) => {
                 let word = if is_inlined { "STAGE" } else { "FUNCTION" };
@@ -341,13 +321,6 @@ impl Language {
             }
             (false, Some(returned)) => format!("fn {name}({list}) -> {returned} {{"),
             (false, None) => format!("fn {name}({list}) {{"),
-        }
-    }
-
-    fn declared_parameters(&self) -> String {
-        match self.is_c() {
-            true => format!("const {}_parameters *p", self.prefix),
-            false => format!("p: {}_parameters", self.prefix),
         }
     }
 
@@ -422,23 +395,10 @@ impl Language {
 
     /// The structure of the parameters with these fields, and the values that the file was made with.
     pub(super) fn structure(&self, fields: &str, example: &[String]) -> String {
-        let (Self { prefix, .. }, example) = (self, example.join(", "));
-        let upper = prefix.to_uppercase();
-        match self.is_c() {
-            true => format!(
-                "typedef struct {{\n{fields}}} {prefix}_parameters;\n\n#define {upper}_EXAMPLE {{{example}}}\n\n"
-            ),
-            false => format!(
-                "struct {prefix}_parameters {{
-{fields}}}
-
-fn {prefix}_example() -> {prefix}_parameters {{
-    return {prefix}_parameters({example});
-}}
-
-"
-            ),
-        }
+        let text = if self.is_c() { PARAMETERS_IN_C } else { PARAMETERS_IN_WGSL };
+        let (prefix, upper) = (&self.prefix, self.prefix.to_uppercase());
+        let text = text.replace("{prefix}", prefix).replace("{upper}", &upper);
+        text.replace("{fields}", fields).replace("{example}", &example.join(", "))
     }
 
     /// Numbers of a list among those values.
@@ -454,28 +414,6 @@ fn {prefix}_example() -> {prefix}_parameters {{
             format!("{prefix}_parameters p = {}_EXAMPLE", prefix.to_uppercase())
         } else {
             format!("{prefix}_example()")
-        }
-    }
-
-    /// Compiler command, for the top of the file.
-    pub(super) fn advice(&self) -> &'static str {
-        match self.target {
-            Target::C => {
-                "Compile with -O2 or -O3 and -ffp-contract=off, for the processor at hand (-march=native); never with
- * -ffast-math, -Ofast, -funsafe-math-optimizations, -ffinite-math-only, /fp:fast; icx needs -fp-model=precise."
-            }
-            Target::Cuda => {
-                "Compile with -fmad=false (nvcc), -ffp-contract=off (HIP, clang) or fuse_fp=False (Warp): what is to be fused
- * is written as fma. Never with --use_fast_math or -ffast-math."
-            }
-            Target::OpenCl => {
-                "Build with -cl-fp32-correctly-rounded-divide-sqrt where the device has it; never with -cl-fast-relaxed-math,
- * -cl-unsafe-math-optimizations or -cl-finite-math-only."
-            }
-            Target::Wgsl => {
-                "No option is needed. Divisions and square roots are as exact as the device makes them, which the language does
- * not promise to be the last bit."
-            }
         }
     }
 
@@ -501,29 +439,18 @@ fn {prefix}_example() -> {prefix}_parameters {{
             Target::Cuda => ("defined(__GNUC__) || defined(__CUDACC_RTC__)", format!(" {all}_DEVICE")),
         };
         let inlined = if self.target == Target::C { "unused, always_inline" } else { "unused" };
-        let head = self.head_of_file();
-        // The attribute is for clang and nvcc, which warn of functions that are not called, `inline` or not.
-        format!(
-            "#ifndef {upper}_H
-#define {upper}_H {sum:#x}
-{head}#if {has_attributes}
-#define {all}_FUNCTION static inline __attribute__((unused)){device}
-#define {all}_STAGE static inline __attribute__(({inlined})){device}
-#else
-#define {all}_FUNCTION static inline{device}
-#define {all}_STAGE static inline{device}
-#endif
-
-{shared}
-{own}#ifdef {all}_PRECISE
-#pragma float_control(pop)
-#undef {all}_PRECISE
-#endif
-#elif {upper}_H != {sum:#x}
-#error \"two files have the prefix of this one: give one of them another name\"
-#endif
-"
-        )
+        let words = [
+            ("{upper}", &upper[..]),
+            ("{all}", &all),
+            ("{sum}", &format!("{sum:#x}")),
+            ("{head}", &self.head_of_file()),
+            ("{has_attributes}", has_attributes),
+            ("{device}", &device),
+            ("{inlined}", inlined),
+            ("{shared}", &shared),
+            ("{own}", &own),
+        ];
+        words.iter().fold(FILE.to_owned(), |text, (word, meaning)| text.replace(word, meaning))
     }
 }
 

@@ -6,7 +6,7 @@ mod check;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use piola::__private::record::{RecordedFunction, RecordedOperation};
+use piola::__private::record::{RecordedFunction, RecordedOperation, RecordedProgram};
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
@@ -27,9 +27,9 @@ pub(super) fn is_identifier(name: &str) -> bool {
 pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
     let [mut shared, mut own] = [String::new(), String::new()];
-    for function in printer.needed() {
-        let signature = printer.signature(function.name);
-        let text = printer.function(function, signature);
+    for (name, program) in printer.needed() {
+        let signature = printer.signature(name);
+        let text = printer.function(signature, program);
         match signature.is_of_energy {
             true if signature.name == "at_rest" => own = text + &printer.check() + &own,
             true => own += &text,
@@ -80,18 +80,16 @@ impl<'a> Printer<'a> {
     fn needed(&self) -> Vec<&'a RecordedFunction> {
         let wanted = self.file.wanted.iter().map(|function| function.name());
         let mut names: BTreeSet<_> = wanted.chain(["at_rest"]).collect();
-        let mut needed = Vec::new();
-        for function in self.file.functions.iter().rev() {
-            if !names.contains(function.name) {
-                continue;
-            }
-            needed.push(function);
-            for operation in &function.program.operations {
-                if let RecordedOperation::Call(name, _) = operation {
-                    names.insert(name);
-                }
-            }
-        }
+        let is_needed = |(name, program): &&RecordedFunction| {
+            let is_needed = names.contains(name);
+            let calls = program.operations.iter().filter_map(|operation| match *operation {
+                RecordedOperation::Call(name, _) if is_needed => Some(name),
+                _ => None,
+            });
+            names.extend(calls);
+            is_needed
+        };
+        let mut needed: Vec<_> = self.file.functions.iter().rev().filter(is_needed).collect();
         needed.reverse();
         needed
     }
@@ -99,7 +97,7 @@ impl<'a> Printer<'a> {
     /// The description of the file and its use.
     fn comment(&self) -> String {
         let Self { file, language, .. } = self;
-        let (description, prefix) = (file.energy.description(), &file.prefix);
+        let description = file.energy.description();
         let mut text = format!(
             "/* {}: an isotropic hyperelastic energy, by piola {}.\n *\n * {}\n *\n * psi = {}\n",
             safe(&description.name),
@@ -113,23 +111,7 @@ impl<'a> Printer<'a> {
         if let Inversion::Extend { epsilon } = file.inversion {
             let _ = writeln!(text, " * continued where a stretch is below {epsilon}.");
         }
-        text + &format!(
-            " *
- * F, P row by row: entry (i, j) at 3 i + j. dP/dF: row 3 i + j for entry (i, j) of P, column 3 k + l for entry
- * (k, l) of F, entry at 9 row + column; symmetric. Energies are densities of rest volume, Pa in SI units.
- * Stretches are signed: F = U diag(l) V^T with rotations U and V, l1 >= l2 >= |l3|. Outputs may not overlap
- * inputs.
- *
- * Functions return bits: 1 refused (outside of the domain), 2 bounded (at a pole: l2 + l3 is zero to within
- * roundings), 4 not finite, 8 filtered. With 1 or 4 the results are invalid. Call {prefix}_check once for each
- * set of parameters, on the processor that uses them. Those that the file was made with: {}.
- *
- * {}
- * Nothing is allocated, and there is no global state. Licence: MIT or Apache-2.0, as you choose. */
-",
-            language.example(),
-            language.advice(),
-        )
+        text + &language.comment()
     }
 
     /// The structure of the parameters.
@@ -166,23 +148,27 @@ impl<'a> Printer<'a> {
     /// many functions call and that is long, nor one that writes whole matrices.
     fn is_inlined(&self, name: &str) -> bool {
         let signature = self.signature(name);
-        let is_short = |one: &RecordedFunction| one.program.operations.len() <= SHORT;
+        let is_short = |(own, program): &RecordedFunction| *own == name && program.operations.len() <= SHORT;
         signature.returned != Returned::Status
             && signature.inputs.iter().any(|input| input.length.is_some())
             && signature.size() < 81
             && !signature.name.starts_with("decomposition")
-            && (!signature.is_of_energy
-                || self.file.functions.iter().any(|one| one.name == name && is_short(one)))
+            && (!signature.is_of_energy || self.file.functions.iter().any(is_short))
     }
 
-    fn function(&self, function: &RecordedFunction, signature: &Signature) -> String {
-        let (language, program) = (&self.language, &function.program);
+    fn function(&self, signature: &Signature, program: &RecordedProgram) -> String {
+        let language = &self.language;
         let comment = signature.comment.replace('\n', "\n * ");
         let mut text =
-            format!("/* {comment} */\n{}\n", language.head(signature, self.is_inlined(function.name)));
+            format!("/* {comment} */\n{}\n", language.head(signature, self.is_inlined(signature.name)));
         let mut body = Body::new(self, program, signature);
         let statements = body.statements();
-        if signature.is_of_energy && !statements.contains("p->") && !statements.contains("(p, ") {
+        let reads_parameters = |operation: &RecordedOperation| match operation {
+            RecordedOperation::Parameter(_) => true,
+            RecordedOperation::Call(name, _) => self.signature(name).is_of_energy,
+            _ => false,
+        };
+        if signature.is_of_energy && !program.operations.iter().any(reads_parameters) {
             text += language.parameters_are_unused();
         }
         if let (true, Some(input)) = (signature.returned == Returned::Status, signature.inputs.first()) {

@@ -54,14 +54,15 @@ impl Signature {
         let is_of_energy = inputs == "p" || inputs.starts_with("p, ");
         let values = |text: &'static str| text.split(", ").filter(|one| *one != "p").map(value);
         let mut outputs: Vec<Value> = values(results).collect();
-        let returned = match outputs.last()? {
-            Value { name: "status", .. } => Returned::Status,
-            Value { name, .. } if name.ends_with('?') => Returned::Truth(name.trim_end_matches('?')),
-            _ if outputs[0].length.is_none() => Returned::Number,
-            _ => Returned::Nothing,
+        let last = outputs.last()?.name;
+        let returned = match last.strip_suffix('?') {
+            Some(truth) => Returned::Truth(truth),
+            None if last == "status" => Returned::Status,
+            None if outputs[0].length.is_none() => Returned::Number,
+            None => Returned::Nothing,
         };
         match returned {
-            Returned::Status | Returned::Truth(_) => _ = outputs.pop(),
+            Returned::Status | Returned::Truth(_) => outputs.truncate(outputs.len() - 1),
             Returned::Number => _ = outputs.remove(0),
             Returned::Nothing => {}
         }

@@ -140,24 +140,26 @@ impl Interpreted {
         }
     }
 
-    /// The program of a response, if there is one.
-    fn program(&self, response: ResponseKind) -> Option<&Program> {
+    /// The program of a response, if there is one, with the name of its stage.
+    fn program(&self, response: ResponseKind) -> Option<(&'static str, &Program)> {
         let (variant, by_invariants) = (self.variant(), self.programs.by_invariants.as_ref());
-        match response {
-            ResponseKind::Energy => Some(&variant.energy),
-            ResponseKind::Gradient => Some(&variant.gradient),
-            ResponseKind::Blocks => Some(&variant.blocks),
-            ResponseKind::EnergyByInvariants => by_invariants?.energy.as_ref(),
-            ResponseKind::GradientByInvariants => Some(&by_invariants?.gradient),
-            ResponseKind::DerivativesByInvariants => Some(&by_invariants?.derivatives),
-        }
+        Some(match response {
+            ResponseKind::Energy => ("energy_of_stretches", &variant.energy),
+            ResponseKind::Gradient => ("gradient", &variant.gradient),
+            ResponseKind::Blocks => ("blocks_of_stretches", &variant.blocks),
+            ResponseKind::EnergyByInvariants => ("energy_by_invariants", by_invariants?.energy.as_ref()?),
+            ResponseKind::GradientByInvariants => ("gradient_by_invariants", &by_invariants?.gradient),
+            ResponseKind::DerivativesByInvariants => {
+                ("derivatives_by_invariants", &by_invariants?.derivatives)
+            }
+        })
     }
 
     /// The results of a response at one point, or one register of them.
     fn alone<R: Real, const N: usize>(&self, response: ResponseKind, at: [R; 3]) -> [R; N] {
         match self.program(response) {
             None => [R::splat(f64::NAN); N],
-            Some(program) => stage!(R, response.name(), (at) => self.results(program, &at)),
+            Some((name, program)) => stage!(R, name, (at) => self.results(program, &at)),
         }
     }
 
@@ -194,7 +196,7 @@ impl Interpreted {
         parameters: Parameters<'_>,
         tile: RawTile<'_, E>,
     ) -> u64 {
-        let Some(program) = self.program(response) else { return 0 };
+        let Some((_, program)) = self.program(response) else { return 0 };
         let context = Context { parameters, ..self.context() };
         execute_tile(program, context, self.volume(response.is_by_invariants()), tile)
     }

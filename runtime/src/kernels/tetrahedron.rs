@@ -12,15 +12,13 @@ use crate::point::matrix::{dot, symmetric, three, transpose};
 use crate::point::{Filter, Matrix3, Point, Tangent, entries_are_finite, evaluate, multiply};
 use crate::status::Status;
 
-/// Gradient and stiffness of a linear tetrahedron.
-pub struct DenseTetrahedron<R: Real> {
-    /// The gradient of its energy, N: coordinate a of node i at 3i+a.
-    pub gradient: [R; 12],
-    /// Its stiffness, filtered as requested, N/m: row and column as the gradient.
-    pub stiffness: [R; 144],
-    /// Status of the results: valid or not, and filtered or not.
-    pub status: Status<R::Mask>,
-}
+/// Gradient of the energy of a linear tetrahedron, N: coordinate a of node i at 3i+a; its stiffness,
+/// filtered as requested, N/m: row and column as the gradient; and their status.
+pub(crate) type DenseTetrahedron<R> = ([R; 12], [R; 144], Status<<R as Real>::Mask>);
+
+/// The gradient in the position of one node, N, the block of the stiffness between the node and itself,
+/// N/m, and their status.
+pub(crate) type DenseVertex<R> = ([R; 3], Matrix3<R>, Status<<R as Real>::Mask>);
 
 /// Gradient and filtered stiffness of a tetrahedron with its nodes at these positions.
 ///
@@ -50,12 +48,12 @@ pub fn evaluate_tetrahedron<R: Real>(
         return by_invariants;
     }
     let other = by_decomposition(material, &F, &rest, filter);
-    let (one, status) = (&by_invariants, other.status & !served);
-    DenseTetrahedron {
-        gradient: std::array::from_fn(|k| R::select(served, one.gradient[k], other.gradient[k])),
-        stiffness: std::array::from_fn(|k| R::select(served, one.stiffness[k], other.stiffness[k])),
-        status,
-    }
+    let (gradient, stiffness, status) = other;
+    (
+        std::array::from_fn(|k| R::select(served, by_invariants.0[k], gradient[k])),
+        std::array::from_fn(|k| R::select(served, by_invariants.1[k], stiffness[k])),
+        status & !served,
+    )
 }
 
 fn by_decomposition<R: Real>(
@@ -92,8 +90,8 @@ fn by_decomposition<R: Real>(
         FullStiffness::put_all(&tangent, &rest, &mut stiffness);
         stiffness
     });
-    let status = status | Status { bounded, nonfinite: nonfinite | !is_finite, ..Status::clean() };
-    DenseTetrahedron { gradient, stiffness, status }
+    let nonfinite = nonfinite | !is_finite;
+    (gradient, stiffness, status | Status { bounded, nonfinite, ..Status::clean() })
 }
 
 /// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
@@ -116,17 +114,7 @@ fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
             (gradient, stiffness, Truth(terms.keeps_digits(largest) & stays_finite))
         });
     let served = is_in_range & material.admits_invariants(invariants) & is_good;
-    (served, DenseTetrahedron { gradient, stiffness, status: Status::clean() })
-}
-
-/// What belongs to one node of a tetrahedron.
-pub struct DenseVertex<R: Real> {
-    /// The gradient of the tetrahedron's energy in the node's position, N.
-    pub gradient: [R; 3],
-    /// The block of the stiffness between the node and itself, filtered as requested, N/m; symmetric.
-    pub stiffness: Matrix3<R>,
-    /// Status of the results: valid or not, and filtered or not.
-    pub status: Status<R::Mask>,
+    (served, (gradient, stiffness, Status::clean()))
 }
 
 /// Gradient and filtered stiffness of one node of a tetrahedron, at the tetrahedron's F.
@@ -170,5 +158,5 @@ pub fn evaluate_vertex<R: Real>(
         symmetric!(i, j => dot(left[i], U[j]))
     });
     let nonfinite = !(entries_are_finite(&[gradient; 3]) & entries_are_finite(&stiffness));
-    DenseVertex { gradient, stiffness, status: status | Status { nonfinite, ..Status::clean() } }
+    (gradient, stiffness, status | Status { nonfinite, ..Status::clean() })
 }

@@ -254,3 +254,20 @@ macro_rules! numbers {
     )*};
 }
 numbers! { A; A B; A B C; A B C D; A B C D E; A B C D E F; }
+
+/// `stage!(R, "name", (inputs) => body)`: a part of a computation that has a name. Numbers compute it in
+/// place; the one that records writes it down once as a function and then calls it. The body uses these
+/// variables and what is the same in all its calls, but no other number.
+///
+/// A macro, because the body must be in the function itself: as a closure, it would not have the instructions
+/// of a kernel.
+macro_rules! stage {
+    ($R:ty, $name:expr, ($($input:ident),*) => $body:expr) => {
+        if <$R as $crate::lanes::Real>::IS_RECORDED {
+            <$R as $crate::lanes::Real>::stage($name, ($($input,)*), |($($input,)*)| $body)
+        } else {
+            $body
+        }
+    };
+}
+pub(crate) use stage;

@@ -88,15 +88,12 @@ pub fn define<I: Numbers<Recorded>, O: Numbers<Recorded>>(
         id
     }));
     let known = RECORDER.with_borrow_mut(|recorder| {
-        let program = recorder.tapes.pop().unwrap_or_default().into_program(results);
-        let truths = program.results.iter().map(|&id| match program.operations[id as usize] {
-            RecordedOperation::Truth(truth) => Some(truth),
-            _ => None,
-        });
-        let truths: Vec<_> = truths.collect();
-        match recorder.functions.iter().find(|one| one.name == name) {
-            Some(one) => debug_assert_eq!(one.program, program, "the stages `{name}` differ"),
-            None => recorder.functions.push(RecordedFunction { name, program }),
+        let tape = recorder.tapes.pop().unwrap_or_default();
+        let truths: Vec<_> = results.iter().map(|&id| tape.truth(id)).collect();
+        let program = tape.into_program(results);
+        match recorder.functions.iter().find(|one| one.0 == name) {
+            Some(one) => debug_assert_eq!(one.1, program, "the stages `{name}` differ"),
+            None => recorder.functions.push((name, program)),
         }
         truths
     });
@@ -144,15 +141,10 @@ impl Recorded {
         Self(id)
     }
 
-    /// Results of a function without a program, which printers have in each language.
-    fn primitive<const N: usize>(name: &'static str, arguments: &[Self]) -> [Self; N] {
-        let call = Self::of(RecordedOperation::Call(name, arguments.iter().map(|number| number.0).collect()));
-        std::array::from_fn(|k| Self::of(RecordedOperation::Part(call.0, k)))
-    }
-
-    fn is_literal(self) -> bool {
-        RECORDER
-            .with_borrow(|recorder| recorder.tapes.last().is_some_and(|tape| tape.literal(self.0).is_some()))
+    /// The first result of a function without a program, which printers have in each language.
+    fn primitive<const N: usize>(name: &'static str, arguments: [Self; N]) -> Self {
+        let call = Self::of(RecordedOperation::Call(name, arguments.map(|number| number.0).into()));
+        Self::of(RecordedOperation::Part(call.0, 0))
     }
 
     fn unary(self, operator: Unary) -> Self {
@@ -286,7 +278,9 @@ impl Real for Recorded {
     ) -> O {
         let mut is_known = true;
         let inputs = inputs.map(&mut Renamed(|id| {
-            is_known &= Self(id).is_literal();
+            let tape =
+                |recorder: &Recorder| recorder.tapes.last().is_some_and(|tape| tape.literal(id).is_some());
+            is_known &= RECORDER.with_borrow(tape);
             id
         }));
         if is_known { body(inputs) } else { define(name, inputs, body) }
@@ -335,8 +329,7 @@ impl Real for Recorded {
     }
 
     fn two_product(self, other: Self) -> (Self, Self) {
-        let [error] = Self::primitive("product_error", &[self, other]);
-        (self * other, error)
+        (self * other, Self::primitive("product_error", [self, other]))
     }
 
     fn power_of_two_scale(self) -> (Self, Self) {
@@ -353,19 +346,20 @@ impl Primitive for Recorded {
     }
 
     fn split(self) -> (Self, Self) {
-        let [mantissa, exponent] = Self::primitive("split", &[self]);
-        (mantissa, exponent)
+        let call = RecordedOperation::Call("split", [self.0].into());
+        let [mantissa, exponent] = [0, 1].map(|k| RecordedOperation::Part(Self::of(call.clone()).0, k));
+        (Self::of(mantissa), Self::of(exponent))
     }
 
     fn scale(self, exponent: Self) -> Self {
-        self.binary(Binary::Scale, exponent)
+        Self::primitive("scale", [self, exponent])
     }
 
     fn leading_power(self) -> Self {
-        self.unary(Unary::LeadingPower)
+        Self::primitive("leading_power", [self])
     }
 
     fn reciprocal_of_power(self) -> Self {
-        self.unary(Unary::ReciprocalOfPower)
+        Self::primitive("reciprocal_of_power", [self])
     }
 }

@@ -54,19 +54,6 @@ pub enum ResponseKind {
 }
 
 impl ResponseKind {
-    /// The name of the method.
-    #[cfg(all(feature = "interpreter", not(test)))]
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Energy => "energy_of_stretches",
-            Self::Gradient => "gradient",
-            Self::Blocks => "blocks_of_stretches",
-            Self::EnergyByInvariants => "energy_by_invariants",
-            Self::GradientByInvariants => "gradient_by_invariants",
-            Self::DerivativesByInvariants => "derivatives_by_invariants",
-        }
-    }
-
     /// True if its arguments are I1, I2, J instead of stretches.
     #[must_use]
     pub fn is_by_invariants(self) -> bool {

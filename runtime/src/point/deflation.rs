@@ -30,34 +30,18 @@
 
 #![expect(non_snake_case, reason = "A, B, D as in the essay above")]
 
-use crate::lanes::{Mask, Numbers, Real, Replace, Truth, stage};
+use crate::lanes::{Mask, Real, Truth, stage};
 
-/// A right-handed orthonormal frame with one eigenvector of a symmetric matrix.
-pub(super) struct Deflation<R: Real> {
-    /// The eigenvector v whose eigenvalue lies apart from the other two, and a basis p, q of the plane normal
-    /// to it.
-    pub(super) frame: [[R; 3]; 3],
-    /// True if the eigenvalue of v is the largest one; otherwise it is the smallest one.
-    pub(super) is_largest: R::Mask,
-}
-
-impl<R: Real> Numbers<R> for Deflation<R> {
-    fn map(self, to: &mut impl Replace<R>) -> Self {
-        let (frame, Truth(is_largest)) = (self.frame, Truth(self.is_largest)).map(to);
-        Self { frame, is_largest }
-    }
-}
-
-/// Splits an eigenvector off the symmetric matrix with the entries a11, a22, a33, a12, a13, a23.
-///
-/// Their squares must not overflow. Entries that are not finite make the frame NaN.
+/// A right-handed orthonormal frame v, p, q for the symmetric matrix a11, a22, a33, a12, a13, a23: v is the
+/// eigenvector whose eigenvalue lies apart from the other two; true if that is the largest, false if it is
+/// the smallest one. Squares of entries must not overflow; infinite ones and NaN make the frame NaN.
 #[inline(always)]
-pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
+pub(super) fn deflate<R: Real>(A: [R; 6]) -> ([[R; 3]; 3], Truth<R::Mask>) {
     stage!(R, "deflation", (A) => deflation(A))
 }
 
 #[inline(always)]
-fn deflation<R: Real>(A: [R; 6]) -> Deflation<R> {
+fn deflation<R: Real>(A: [R; 6]) -> ([[R; 3]; 3], Truth<R::Mask>) {
     let [one, two] = [R::splat(1.0), R::splat(2.0)];
     let [a11, a22, a33, a12, a13, a23] = A;
     let mean = (a11 + a22 + a33) * (one / R::splat(3.0));
@@ -105,10 +89,8 @@ fn deflation<R: Real>(A: [R; 6]) -> Deflation<R> {
     let p = [-vm, (-km).mul_add(vm, one), mixed];
     let q = [-vn, mixed, (-kn).mul_add(vn, one)];
 
-    Deflation {
-        frame: [l.in_order([vl, vm, vn]), l.in_order(p), l.in_order(q)],
-        is_largest: R::splat(0.0).less(eigenvalue),
-    }
+    let frame = [l.in_order([vl, vm, vn]), l.in_order(p), l.in_order(q)];
+    (frame, Truth(R::splat(0.0).less(eigenvalue)))
 }
 
 /// Cosine and sine of the angle θ, cos θ ≥ 0, by which p and q turn to become eigenvectors in their plane,

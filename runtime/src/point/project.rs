@@ -41,7 +41,7 @@
 
 #![expect(non_snake_case, reason = "A, L, Q as in linear algebra")]
 
-use super::deflation::{Deflation, deflate};
+use super::deflation::deflate;
 use super::matrix::{dot, multiply_symmetric, three};
 use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::{Blocks, PAIRS};
@@ -153,7 +153,7 @@ fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
 #[inline(always)]
 fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let (zero, half) = (R::splat(0.0), R::splat(0.5));
-    let Deflation { frame: [p, v, w], .. } = deflate(A);
+    let ([p, v, w], _) = deflate(A);
     let (Ap, Av, Aw) = (multiply_symmetric(A, p), multiply_symmetric(A, v), multiply_symmetric(A, w));
     let nu = dot(p, Ap);
     let (m11, m12, m22) = (dot(v, Av), dot(v, Aw), dot(w, Aw));

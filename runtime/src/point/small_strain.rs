@@ -59,7 +59,7 @@
 
 #![expect(non_snake_case, reason = "H, F, E, V, S, P as in the essay above")]
 
-use super::deflation::{Deflation, deflate, rotation};
+use super::deflation::{deflate, rotation};
 use super::matrix::{column, dot, multiply_symmetric, multiply_transposed};
 use super::{
     EnergyPoint, Evaluate, Filter, Matrix3, Point, StressPoint, energy_is_finite, evaluate, evaluate_energy,
@@ -243,7 +243,7 @@ fn principal_strains<R: Real>(H: &Matrix3<R>) -> ([R; 3], Matrix3<R>) {
 /// Eigenvalues, and eigenvectors as the columns of V, of a symmetric matrix of magnitude 1 to 2.
 #[inline(always)]
 fn eigen<R: Real>(A: [R; 6]) -> ([R; 3], Matrix3<R>) {
-    let Deflation { frame: [v, p, q], .. } = deflate(A);
+    let ([v, p, q], _) = deflate(A);
     let (Av, Ap, Aq) = (multiply_symmetric(A, v), multiply_symmetric(A, p), multiply_symmetric(A, q));
     let (app, apq, aqq) = (dot(p, Ap), dot(p, Aq), dot(q, Aq));
     let (c, s) = rotation(app - aqq, apq + apq);

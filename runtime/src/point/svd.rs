@@ -23,9 +23,9 @@
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
 use super::Matrix3;
-use super::deflation::{Deflation, deflate, rotation};
+use super::deflation::{deflate, rotation};
 use super::matrix::{dot, three, transpose};
-use crate::lanes::{Mask, Numbers, Real, Replace, stage};
+use crate::lanes::{Mask, Numbers, Real, Replace, Truth, stage};
 
 #[cfg(test)]
 mod tests;
@@ -193,7 +193,7 @@ fn decompose<R: Real>(F: &Matrix3<R>) -> (Matrix3<R>, [R; 3], Matrix3<R>) {
 fn right<R: Real>(F: &Matrix3<R>) -> [[R; 3]; 3] {
     let [f1, f2, f3] = transpose(F);
     let C = [dot(f1, f1), dot(f2, f2), dot(f3, f3), dot(f1, f2), dot(f1, f3), dot(f2, f3)];
-    let Deflation { frame: [v, p, q], is_largest } = deflate(C);
+    let ([v, p, q], Truth(is_largest)) = deflate(C);
 
     // A rotation in the plane of the other two, which takes its angle from F and not from C, where small
     // stretches have lost half of their digits: the columns of F V become orthogonal up to u λ1.

@@ -6,6 +6,7 @@ use crate::emit::Target;
 /// Parts of the files.
 const C: &str = include_str!("primitives.c");
 const WGSL: &str = include_str!("primitives.wgsl");
+const COMMENT: &str = include_str!("comment.txt");
 
 /// The needed parts of a file, each of which follows a line `//@` with its name, the function first.
 fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> Vec<(&str, String)> {
@@ -22,6 +23,14 @@ fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> Vec<(&str, String)> {
 }
 
 impl Language {
+    /// What the comment at the top of a file says of all energies.
+    pub(in crate::emit) fn comment(&self) -> String {
+        let target = format!("{:?}", self.target);
+        let parts = parts(COMMENT, |part| part == "all" || part == "end" || part == target);
+        let text: String = parts.into_iter().map(|(_, text)| text).collect();
+        text.replace("{prefix}", &self.prefix).replace("{example}", &self.example())
+    }
+
     /// What comes before the macros and functions of C: headers, and errors for options that change
     /// arithmetic.
     pub(super) fn head_of_file(&self) -> String {

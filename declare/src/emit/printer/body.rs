@@ -37,10 +37,14 @@ pub(super) struct Body<'a> {
     targets: HashMap<Id, Vec<String>>,
     /// Outputs of calls that are outputs of this function, and those that this function has variables for.
     arrays: HashMap<(Id, usize), String>,
-    /// Calls with outputs that another call overwrites, after the operation with this number.
+    /// Calls with outputs that another call overwrites.
     overwritten: HashSet<Id>,
     texts: HashMap<Id, Text>,
     names: HashSet<String>,
+    /// Numbers that are written to outputs, with their places.
+    results: Vec<(String, Id)>,
+    /// Truth values that are returned.
+    flags: &'a [Id],
 }
 
 impl<'a> Body<'a> {
@@ -63,6 +67,8 @@ impl<'a> Body<'a> {
             overwritten: HashSet::new(),
             texts: HashMap::new(),
             names: names.chain(["p".to_owned()]).collect(),
+            results: Vec::new(),
+            flags: &[],
         };
         let steps = std::mem::take(&mut body.steps.all);
         body.count_uses(&steps);
@@ -72,18 +78,20 @@ impl<'a> Body<'a> {
                 (body.uses[source], body.user[source]) = (body.uses[source] + 1, RETURNED);
             }
         }
-        let mut start = usize::from(signature.returned == Returned::Number);
+        let mut rest = &program.results[usize::from(signature.returned == Returned::Number)..];
         for output in &signature.outputs {
-            let ids = &program.results[start..start + output.count()];
+            let (ids, others) = rest.split_at(output.count());
             if output.length.is_some() {
                 body.settle(ids, output.name);
             }
             for (k, &id) in ids.iter().enumerate() {
                 let element = body.element(output, k, true);
-                body.targets.entry(body.source(id)).or_default().push(element);
+                body.targets.entry(body.source(id)).or_default().push(element.clone());
+                body.results.push((element, id));
             }
-            start += output.count();
+            rest = others;
         }
+        body.flags = rest;
         body.steps.all = steps;
         body
     }
@@ -143,8 +151,7 @@ impl<'a> Body<'a> {
         let branches = ids.iter().map(|&id| guarded(self.program, id));
         let Some(branches) = branches.collect::<Option<Vec<_>>>() else { return };
         let mask = branches[0].0;
-        let is_new = |id: &Id| !self.texts.contains_key(id);
-        if !branches.iter().all(|branch| branch.0 == mask) || !ids.iter().all(is_new) {
+        if branches.iter().any(|one| one.0 != mask) || ids.iter().any(|id| self.texts.contains_key(id)) {
             return;
         }
         for (k, &id) in ids.iter().enumerate() {
@@ -223,28 +230,19 @@ impl<'a> Body<'a> {
         let mut text = String::new();
         let steps = std::mem::take(&mut self.steps.all);
         self.write(&steps, 1, &mut text);
-        let mut start = usize::from(self.signature.returned == Returned::Number);
-        for output in &self.signature.outputs {
-            for k in 0..output.count() {
-                let element = self.element(output, k, true);
-                let id = self.program.results[start + k];
-                // Unless it is there already.
-                if self.targets.get(&self.source(id)).is_some_and(|targets| targets.contains(&element)) {
-                    let value = self.operand(id);
-                    if value != element {
-                        let _ = writeln!(text, "    {element} = {value};");
-                    }
-                }
+        for (element, id) in &self.results {
+            let value = self.operand(*id);
+            // Unless it is there already.
+            if value != *element && self.targets.contains_key(&self.source(*id)) {
+                let _ = writeln!(text, "    {element} = {value};");
             }
-            start += output.count();
         }
-        let results = &self.program.results;
         let returned = match self.signature.returned {
             Returned::Nothing => return text,
-            Returned::Number => self.operand(results[0]),
-            Returned::Truth(_) => self.operand(results[results.len() - 1]),
+            Returned::Number => self.operand(self.program.results[0]),
+            Returned::Truth(_) => self.operand(self.flags[0]),
             Returned::Status => {
-                let bits = results[start..].iter().enumerate();
+                let bits = self.flags.iter().enumerate();
                 let bits = bits.filter(|&(_, &id)| *self.operation(id) != RecordedOperation::Truth(false));
                 let bits: Vec<_> = bits.map(|(k, &id)| self.language().bit(k, &self.atom(id))).collect();
                 if bits.is_empty() { "0u".to_owned() } else { bits.join(" | ") }
@@ -271,7 +269,7 @@ impl<'a> Body<'a> {
                     for (kind, names) in [Kind::Number, Kind::Truth].into_iter().zip(&variables) {
                         text.push_str(&self.language().variables(kind, names, &margin));
                     }
-                    let (condition, negated) = (self.operand(*mask), self.atom(*mask));
+                    let [condition, negated] = [self.operand(*mask), format!("!{}", self.atom(*mask))];
                     let mut sides = [String::new(), String::new()];
                     for (k, inner) in inner.iter().enumerate() {
                         self.write(inner, depth + 1, &mut sides[k]);
@@ -283,15 +281,12 @@ impl<'a> Body<'a> {
                         }
                     }
                     let [yes, no] = &sides;
-                    let _ = match (yes.is_empty(), no.is_empty()) {
-                        (true, true) => Ok(()),
-                        (true, false) => writeln!(text, "{margin}if (!{negated}) {{\n{no}{margin}}}"),
-                        (false, true) => writeln!(text, "{margin}if ({condition}) {{\n{yes}{margin}}}"),
-                        (false, false) => {
-                            writeln!(
-                                text,
-                                "{margin}if ({condition}) {{\n{yes}{margin}}} else {{\n{no}{margin}}}"
-                            )
+                    *text += &match (yes.is_empty(), no.is_empty()) {
+                        (true, true) => String::new(),
+                        (true, false) => format!("{margin}if ({negated}) {{\n{no}{margin}}}\n"),
+                        (false, true) => format!("{margin}if ({condition}) {{\n{yes}{margin}}}\n"),
+                        _ => {
+                            format!("{margin}if ({condition}) {{\n{yes}{margin}}} else {{\n{no}{margin}}}\n")
                         }
                     };
                 }
@@ -303,47 +298,33 @@ impl<'a> Body<'a> {
     fn compute(&mut self, id: Id, margin: &str, text: &mut String) {
         let operation = self.operation(id);
         let (value, is_compound) = match operation {
-            RecordedOperation::Call(name, arguments) => {
-                match self.call(id, self.printer.signature(name), arguments, margin, text) {
-                    Some(value) => (value, false),
-                    None => return,
-                }
-            }
+            RecordedOperation::Call(_, arguments) => match self.call(id, arguments, margin, text) {
+                Some(value) => (value, false),
+                None => return,
+            },
             _ => self.language().expression(operation, &|id| self.operand(id), &|id| self.atom(id)),
         };
-        let kind = self.kind(id);
-        let uses = self.uses[id as usize];
+        let (kind, uses) = (self.kind(id), self.uses[id as usize]);
         let mut reads_overwritten = false;
         operation.for_each_operand(|operand| {
             if let RecordedOperation::Part(call, _) = self.operation(operand) {
                 reads_overwritten |= self.overwritten.contains(call);
             }
         });
-        let writes = matches!(operation, RecordedOperation::Call(name, _) if !self.printer.signature(name).outputs.is_empty());
-        let targets = self.targets.get(&id).filter(|_| uses == 0);
-        if let Some(targets) = targets {
-            let targets = targets.clone();
-            text.push_str(&self.language().assignment(&targets, &value, margin));
+        let is_call = matches!(operation, RecordedOperation::Call(..));
+        let stays = reads_overwritten || is_call && !self.callee(id).outputs.is_empty();
+        let is_result = self.targets.contains_key(&id);
+        if let (0, Some(targets)) = (uses, self.targets.get(&id)) {
+            *text += &self.language().assignment(targets, &value, margin);
             self.texts.insert(id, (targets[0].clone(), false));
             self.targets.remove(&id);
-        } else if uses == 1
-            && !reads_overwritten
-            && !writes
-            && !self.targets.contains_key(&id)
-            && self.may_nest(id, value.len())
-        {
+        } else if uses == 1 && !stays && !is_result && self.may_nest(id, value.len()) {
             self.texts.insert(id, (value, is_compound));
-        } else if uses > 0 || self.targets.contains_key(&id) {
-            let wanted = match (operation, kind) {
-                (RecordedOperation::Call(name, _), Kind::Truth) => {
-                    match self.printer.signature(name).returned {
-                        Returned::Truth(name) => name.to_owned(),
-                        _ => format!("t{id}"),
-                    }
-                }
-                _ => format!("t{id}"),
+        } else if uses > 0 || is_result {
+            let name = match self.callee(id).returned {
+                Returned::Truth(name) if is_call => self.name(name, id),
+                _ => self.name(&format!("t{id}"), id),
             };
-            let name = self.name(&wanted, id);
             let _ = writeln!(text, "{margin}{}", self.language().constant(kind, &name, &value));
             self.texts.insert(id, (name, false));
         } else {
@@ -375,15 +356,8 @@ impl<'a> Body<'a> {
     }
 
     /// Writes what stands before a call; returns the call, unless it returns nothing.
-    fn call(
-        &mut self,
-        id: Id,
-        callee: &'a Signature,
-        arguments: &[Id],
-        margin: &str,
-        text: &mut String,
-    ) -> Option<String> {
-        let language = self.language();
+    fn call(&mut self, id: Id, arguments: &[Id], margin: &str, text: &mut String) -> Option<String> {
+        let (language, callee) = (self.language(), self.callee(id));
         let mut list = Vec::new();
         if callee.is_of_energy {
             list.push("p".to_owned());
@@ -434,15 +408,13 @@ impl<'a> Body<'a> {
                 return self.language().passed(name, self.is_output(name));
             }
         }
-        if let RecordedOperation::Argument(first) = *self.operation(ids[0]) {
-            let are_next = ids.iter().zip(first..);
-            let mut are_next = are_next.map(|(&id, k)| *self.operation(id) == RecordedOperation::Argument(k));
-            if let Some((k, 0)) = place(&self.signature.inputs, first as usize)
-                && self.signature.inputs[k].length == Some(ids.len())
-                && are_next.all(|is_next| is_next)
-            {
-                return self.signature.inputs[k].name.to_owned();
-            }
+        let is_next = |(&id, k)| *self.operation(id) == RecordedOperation::Argument(k);
+        if let RecordedOperation::Argument(first) = *self.operation(ids[0])
+            && let Some((k, 0)) = place(&self.signature.inputs, first as usize)
+            && self.signature.inputs[k].length == Some(ids.len())
+            && ids.iter().zip(first..).all(is_next)
+        {
+            return self.signature.inputs[k].name.to_owned();
         }
         let numbers: Vec<_> = ids.iter().map(|&id| self.operand(id)).collect();
         let name = self.name(wanted, id);
@@ -455,9 +427,7 @@ impl<'a> Body<'a> {
         match *self.operation(id) {
             Truth(_) | Less(..) | IsZero(_) | Not(_) | And(..) | Or(..) => Kind::Truth,
             Part(call, k) if self.callee(call).is_truth(k) => Kind::Truth,
-            RecordedOperation::Call(name, _)
-                if matches!(self.printer.signature(name).returned, Returned::Truth(_)) =>
-            {
+            RecordedOperation::Call(..) if matches!(self.callee(id).returned, Returned::Truth(_)) => {
                 Kind::Truth
             }
             Select(_, yes, no) if [yes, no].iter().any(|&id| self.kind(id) == Kind::Truth) => Kind::Truth,
@@ -488,19 +458,18 @@ impl<'a> Body<'a> {
                 Some(if text.starts_with('-') { format!("({text})") } else { text })
             }
             RecordedOperation::Truth(truth) => Some(self.language().truth(truth)),
-            RecordedOperation::Part(call, k) => match self.callee(call).place(k) {
-                None => return self.texts.get(&call).cloned().unwrap_or_default(),
-                Some((output, k)) => self.arrays.get(&(call, output)).map(|name| {
-                    let is_array = self.callee(call).outputs[output].length.is_some();
-                    if is_array {
-                        self.language().element(name, k, self.is_output(name))
-                    } else {
-                        name.clone()
-                    }
-                }),
-            },
-            _ => return self.texts.get(&id).cloned().unwrap_or_default(),
+            RecordedOperation::Part(call, k) => self.callee(call).place(k).and_then(|(output, k)| {
+                let name = self.arrays.get(&(call, output))?;
+                Some(match self.callee(call).outputs[output].length {
+                    Some(_) => self.language().element(name, k, self.is_output(name)),
+                    None => name.clone(),
+                })
+            }),
+            _ => None,
         };
-        (simple.unwrap_or_default(), false)
+        match simple {
+            Some(text) => (text, false),
+            None => self.texts.get(&self.source(id)).cloned().unwrap_or_default(),
+        }
     }
 }

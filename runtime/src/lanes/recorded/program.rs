@@ -51,10 +51,6 @@ pub enum Unary {
     Absolute,
     /// √a.
     SquareRoot,
-    /// The power of two in |a|, 0 for numbers below the normal ones.
-    LeadingPower,
-    /// 1/a for a power of two.
-    ReciprocalOfPower,
 }
 
 /// Operations with two operands.
@@ -70,8 +66,6 @@ pub enum Binary {
     Divide,
     /// |a| with the sign of b.
     CopySign,
-    /// a 2ᵇ, rounded once.
-    Scale,
 }
 
 /// A straight-line program.
@@ -86,14 +80,8 @@ pub struct RecordedProgram {
     pub guards: HashSet<Id>,
 }
 
-/// A program with a name, by which others call it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RecordedFunction {
-    /// The name.
-    pub name: &'static str,
-    /// The program.
-    pub program: RecordedProgram,
-}
+/// A name and a program, which others call by it.
+pub type RecordedFunction = (&'static str, RecordedProgram);
 
 impl RecordedOperation {
     /// The operation on other operands.
@@ -152,7 +140,8 @@ impl Format {
     }
 
     /// The nearest number of the format.
-    pub(super) fn rounded(self, value: f64) -> f64 {
+    #[must_use]
+    pub fn rounded(self, value: f64) -> f64 {
         match self {
             Self::F32 => f64::from(value as f32),
             Self::F64 => value,
@@ -168,7 +157,7 @@ impl Format {
                 Binary::Subtract => Some(a - b),
                 Binary::Multiply => Some(a * b),
                 Binary::Divide => Some(a / b),
-                Binary::CopySign | Binary::Scale => None,
+                Binary::CopySign => None,
             }
         }
         match self {

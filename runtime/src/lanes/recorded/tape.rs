@@ -28,7 +28,7 @@ impl Tape {
         }
     }
 
-    fn truth(&self, id: Id) -> Option<bool> {
+    pub(super) fn truth(&self, id: Id) -> Option<bool> {
         match self.operations[id as usize] {
             RecordedOperation::Truth(truth) => Some(truth),
             _ => None,
