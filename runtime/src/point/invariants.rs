@@ -87,7 +87,7 @@ pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(F: &Matrix3<
     let name = if HAS_SECOND { "stress_by_invariants" } else { "stress_by_invariants_without_I2" };
     stage!(R, name, (F, W) => {
         let C = cofactor(&F);
-        let D = if HAS_SECOND { cross(&C, &F) } else { C };
+        let D = if HAS_SECOND { second_derivative(&F) } else { C };
         let [W1, W2, WJ] = W;
         stress_of_terms::<R, HAS_SECOND>([&F, &D, &C], [W1 + W1, W2 + W2, WJ])
     })
@@ -122,14 +122,15 @@ fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     }))
 }
 
-/// The cross product of two matrices, A × B. Not fused, so that axes with equal entries have equal ones in
-/// it.
+/// D = F (I1 I − FᵀF). The bracket has sums of two squares on its diagonal, so that nothing cancels there.
 #[inline(always)]
-fn cross<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
-    three!(i => three!(j => {
-        let (k, l, m, n) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-        let straight = A[k][m] * B[l][n] + A[l][n] * B[k][m];
-        let crossed = A[k][n] * B[l][m] + A[l][m] * B[k][n];
-        straight - crossed
+fn second_derivative<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
+    let metric = |x: usize, y: usize| dot([F[0][x], F[1][x], F[2][x]], [F[0][y], F[1][y], F[2][y]]);
+    let squares = three!(x => metric(x, x));
+    let mixed = three!(x => metric((x + 1) % 3, (x + 2) % 3));
+    three!(i => three!(x => {
+        let (y, z) = ((x + 1) % 3, (x + 2) % 3);
+        // Not fused, so that axes with equal entries have equal ones in it.
+        F[i][x] * (squares[y] + squares[z]) - (F[i][y] * mixed[z] + F[i][z] * mixed[y])
     }))
 }
