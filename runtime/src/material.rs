@@ -201,6 +201,8 @@ pub trait Material: Send + Sync {
 /// [`Material::curvature_by_invariants`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curvature {
+    /// W11: f(I1) + d I2, without J and without a condition on I2 or J. P and dP/dF need I1 alone.
+    First,
     /// WJJ: c I1 + d I2 + g(J).
     Volume,
     /// W11 and WJJ: f(I1) + d I2 + g(J).
@@ -215,19 +217,22 @@ impl Curvature {
     pub(crate) const fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::All, _) | (_, Self::All) => Self::All,
-            (Self::Separate, _) | (_, Self::Separate) => Self::Separate,
+            (Self::First, Self::First) => Self::First,
             (Self::Volume, Self::Volume) => Self::Volume,
+            _ => Self::Separate,
         }
     }
 
-    /// True if the terms of dP/dF are computed with all second derivatives. If not, an energy with I2 has W11
-    /// and WJJ, one without it WJJ alone.
+    /// The terms of dP/dF that are computed: true if those with derivatives by I2 are, with all second
+    /// derivatives, and with derivatives by J. Without all, an energy with I2 has W11 and WJJ, one without it
+    /// WJJ alone.
     #[inline(always)]
-    pub(crate) fn has_all(self, has_second: bool) -> bool {
+    pub(crate) fn terms(self, has_second: bool) -> [bool; 3] {
         match self {
-            Self::Volume => false,
-            Self::Separate => !has_second,
-            Self::All => true,
+            Self::First => [has_second, !has_second, !has_second],
+            Self::Volume => [has_second, false, true],
+            Self::Separate => [has_second, !has_second, true],
+            Self::All => [has_second, true, true],
         }
     }
 
@@ -236,9 +241,10 @@ impl Curvature {
     #[cfg(feature = "batch")]
     #[inline(always)]
     pub(crate) fn leaves_out(self, k: usize, has_second: bool) -> bool {
-        let has_all = self.has_all(has_second);
+        let [_, has_all, has_volume] = self.terms(has_second);
         match k {
             1 => !has_second,
+            2 | 5 => !has_volume,
             3 => !has_second && !has_all,
             7 => !has_all,
             4 | 6 | 8 => !has_second || !has_all,

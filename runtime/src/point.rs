@@ -43,7 +43,7 @@ mod twice;
 pub use deformation::Deformation;
 use deformation::Evaluate;
 pub use dense::{DensePoint, evaluate_dense};
-use invariants::{gradient_is_in_range, invariants, stress_by_invariants};
+use invariants::{Needed, gradient_is_in_range, invariants, stress_by_invariants};
 #[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
 use matrix::three;
@@ -143,7 +143,8 @@ impl<R: Real> Evaluate for &Matrix3<R> {
         let F = self;
         let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
         if material.has_energy_by_invariants() {
-            let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
+            let (invariants, is_in_range) =
+                invariants(F, Needed::for_energy(material.has_second_invariant()));
             by_invariants = material.energy_by_invariants(invariants);
             served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();
             if !(!served).any() {
@@ -163,14 +164,12 @@ impl<R: Real> Evaluate for &Matrix3<R> {
         let F = self;
         let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
         if material.has_invariants() {
-            let has_second = material.has_second_invariant();
-            let (invariants, is_in_range) = invariants(F, has_second);
+            let (has_second, curvature) =
+                (material.has_second_invariant(), material.curvature_by_invariants());
+            let needed = Needed::for_derivatives(has_second, curvature);
+            let (invariants, is_in_range) = invariants(F, needed);
             let gradient = material.gradient_by_invariants(invariants);
-            by_invariants = if has_second {
-                stress_by_invariants::<R, true>(F, gradient)
-            } else {
-                stress_by_invariants::<R, false>(F, gradient)
-            };
+            by_invariants = stress_by_invariants(F, gradient, needed);
             served = is_in_range & material.admits_invariants(invariants) & gradient_is_in_range(gradient);
             if !(!served).any() {
                 return StressPoint { stress: by_invariants, status: Status::clean() };

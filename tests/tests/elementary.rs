@@ -43,7 +43,7 @@ macro_rules! functions {
 functions! {
     (x, y)
     Exp exp(), Ln ln(), Powf powf(y), Cbrt cbrt(), Sqrt sqrt(), ReciprocalSqrt reciprocal_sqrt(),
-    RoughSqrt rough_sqrt(), ExpM1 exp_m1(), Ln1p ln_1p(), Sinh sinh(), Cosh cosh(), Tanh tanh(), Asinh asinh(),
+    ExpM1 exp_m1(), Ln1p ln_1p(), Sinh sinh(), Cosh cosh(), Tanh tanh(), Asinh asinh(),
     Sin sin(), Cos cos(), Atan atan(), Erf erf(), Softplus softplus(), Sigmoid sigmoid(),
 }
 
@@ -53,7 +53,6 @@ impl Function {
         let (x, y) = (Exact::splat(x), Exact::splat(y));
         match self {
             ReciprocalSqrt => Exact::splat(1.0) / x.sqrt(),
-            RoughSqrt => x.sqrt(),
             function => function.of(x, y),
         }
     }
@@ -61,7 +60,7 @@ impl Function {
     /// True if `Real` promises digits at x.
     fn promises<E: Format>(self, x: f64) -> bool {
         match self {
-            ReciprocalSqrt | RoughSqrt => x >= E::MIN_POSITIVE,
+            ReciprocalSqrt => x >= E::MIN_POSITIVE,
             Ln1p => x > -1.0,
             Sin | Cos => x.abs() <= last_exact_turn::<E>(),
             Sinh | Cosh | ExpM1 | Softplus | Sigmoid => x.abs() < 1e6,
@@ -90,8 +89,6 @@ impl Function {
         match self {
             Sqrt => 0.5,
             ReciprocalSqrt => 2.0,
-            // A relative error ε is less than ε/u units.
-            RoughSqrt => 2f64.powi(-12) / E::UNIT_ROUNDOFF,
             _ => 1.5,
         }
     }

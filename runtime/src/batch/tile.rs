@@ -17,6 +17,7 @@ use crate::kernels::tangents::{FilterBlocks, Tangents, TangentsByInvariants};
 use crate::kernels::workspace::{Scratch, Workspace};
 use crate::lanes::Backend;
 use crate::point::Filter;
+use crate::point::invariants::Needed;
 use crate::status::Status;
 
 /// Material and settings that all tiles of a call share.
@@ -78,8 +79,9 @@ impl<E: Kernels> Tile<'_, E> {
     /// Energies.
     #[inline(always)] // a call per tile is 1 % of a cheap kernel
     pub(super) fn energies(&mut self, energies: &mut [E]) -> Status<u64> {
-        let has_energy = self.call.properties.has_energy_by_invariants;
-        let in_range = if has_energy { self.invariants() } else { 0 };
+        let Properties { has_energy_by_invariants, has_second_invariant, .. } = self.call.properties;
+        let needed = Needed::for_energy(has_second_invariant);
+        let in_range = if has_energy_by_invariants { self.invariants(needed) } else { 0 };
         let served = self.energies_by_invariants(in_range, energies);
         if served == first_bits(self.count) {
             return Status::default();
@@ -93,7 +95,8 @@ impl<E: Kernels> Tile<'_, E> {
     pub(super) fn stresses(&mut self, to: &mut [E]) -> Status<u64> {
         let call = self.call;
         // The decomposition of an earlier call costs nothing.
-        let mut served = if self.is_decomposed { 0 } else { self.invariants() };
+        let needed = self.needed_for_derivatives();
+        let mut served = if self.is_decomposed { 0 } else { self.invariants(needed) };
         if served != 0 {
             let arguments = self.arguments(&self.scratch.invariants);
             let gradients = &mut self.scratch.gradients;
@@ -101,7 +104,7 @@ impl<E: Kernels> Tile<'_, E> {
             let kernel = StressByInvariants {
                 F: self.F,
                 gradients: &self.scratch.gradients,
-                has_second_invariant: call.properties.has_second_invariant,
+                needed,
                 outputs: self.outputs,
                 count: self.count,
                 line: &mut self.scratch.line,
@@ -138,8 +141,15 @@ impl<E: Kernels> Tile<'_, E> {
         let call = self.call;
         let Properties { has_energy_by_invariants, has_second_invariant, curvature, has_pole, .. } =
             call.properties;
-        let mut served =
-            if energies.is_none() || has_energy_by_invariants { self.derivatives_by_invariants() } else { 0 };
+        let needed = match energies {
+            None => self.needed_for_derivatives(),
+            Some(_) => Needed::for_energy(has_second_invariant),
+        };
+        let mut served = if energies.is_none() || has_energy_by_invariants {
+            self.derivatives_by_invariants(needed)
+        } else {
+            0
+        };
         if let Some(energies) = energies.as_deref_mut() {
             served = self.energies_by_invariants(served, energies);
         }
@@ -209,27 +219,32 @@ impl<E: Kernels> Tile<'_, E> {
             )
     }
 
+    /// Invariants that P and dP/dF depend on.
+    fn needed_for_derivatives(&self) -> Needed {
+        let Properties { has_second_invariant, curvature, .. } = self.call.properties;
+        Needed::for_derivatives(has_second_invariant, curvature)
+    }
+
     /// Computes the invariants if the energy depends on them alone. Returns the points in range: none for any
     /// other energy.
-    fn invariants(&mut self) -> u64 {
-        let Properties { has_invariants, has_second_invariant, .. } = self.call.properties;
-        if !has_invariants {
+    fn invariants(&mut self, needed: Needed) -> u64 {
+        if !self.call.properties.has_invariants {
             return 0;
         }
         let invariants = &mut self.scratch.invariants;
-        let kernel = Invariants { F: self.F, count: self.count, has_second_invariant, invariants };
+        let kernel = Invariants { F: self.F, count: self.count, needed, invariants };
         let in_range = E::invariants(self.call.backend, kernel);
         self.accepted(in_range)
     }
 
     /// Computes the derivatives by the invariants if these give the tangents. Returns the points for which
     /// they do.
-    fn derivatives_by_invariants(&mut self) -> u64 {
+    fn derivatives_by_invariants(&mut self, needed: Needed) -> u64 {
         // What a filter changes is seen in the principal frames alone.
         if self.call.filter != Filter::None {
             return 0;
         }
-        let in_range = self.invariants();
+        let in_range = self.invariants(needed);
         if in_range == 0 {
             return 0;
         }

@@ -209,7 +209,6 @@ mod tests {
             check(x, |x| (x * x + c(1.0)) / (x + c(3.0)));
             check(x, |x| x.mul_add(x, -x));
             check(x, Real::reciprocal_sqrt);
-            check(x, Real::rough_sqrt);
             check(x, Real::cbrt);
             check(x, |x| x.powf(c(-2.3)));
             check(x, |x| c(1.5).powf(x));

@@ -42,6 +42,7 @@ pub(super) fn invariants(judge: &mut Judge<'_>) -> Verdict {
         let [w1, w2, wj, w11, w22, wjj, w12, w1j, w2j] = material.derivatives_by_invariants(invariants);
         let mixed = [("W22", w22), ("W12", w12), ("W1J", w1j), ("W2J", w2j)];
         let vanishing = match material.curvature_by_invariants() {
+            Curvature::First => &[&[("WJ", wj), ("WJJ", wjj)], &mixed[..]].concat()[..],
             Curvature::Volume => &[&[("W11", w11)], &mixed[..]].concat()[..],
             Curvature::Separate => &mixed,
             Curvature::All => &[],

@@ -6,7 +6,7 @@ use super::rows::{Rows, first_bits, for_each_group};
 use super::sink::{Lines, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Kernel, Lanes, Mask, Scalar};
-use crate::point::invariants::invariants;
+use crate::point::invariants::{Needed, invariants, with_needed};
 use crate::point::matrix::{to_matrix, to_row_major};
 use crate::point::multiply;
 use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_by_determinant};
@@ -70,7 +70,7 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
 pub(crate) struct Invariants<'a, E> {
     pub(crate) F: Source<'a, E, 9>,
     pub(crate) count: usize,
-    pub(crate) has_second_invariant: bool,
+    pub(crate) needed: Needed,
     pub(crate) invariants: &'a mut Rows<E, 3>,
 }
 
@@ -80,21 +80,15 @@ impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let Self { F, count, has_second_invariant, invariants: to } = self;
+        let Self { F, count, needed, invariants: to } = self;
         let mut in_range = 0;
-        if has_second_invariant {
+        with_needed!(needed, |needed| {
             for_each_group!(R, count, |at| {
-                let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), true);
+                let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), needed);
                 to.set_all(at, numbers);
                 in_range |= R::bits(is_in_range) << at;
             });
-        } else {
-            for_each_group!(R, count, |at| {
-                let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), false);
-                to.set_all(at, numbers);
-                in_range |= R::bits(is_in_range) << at;
-            });
-        }
+        });
         in_range & first_bits(count)
     }
 }

@@ -130,8 +130,8 @@ pub(crate) trait Output<S: Site, const N: usize> {
     fn put_all<R: Real>(tangent: &Tangent<R>, rest: &S::Rest<R>, to: &mut (impl Components<R> + ?Sized));
 
     /// Returns the largest entry on the diagonal of the tangent.
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>,
         rest: &S::Rest<R>,
         to: &mut (impl Components<R> + ?Sized),
     ) -> R;
@@ -186,8 +186,8 @@ impl Output<Points, 81> for FullTangent {
     }
 
     #[inline(always)]
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>,
         (): &(),
         to: &mut (impl Components<R> + ?Sized),
     ) -> R {
@@ -343,8 +343,8 @@ impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
     }
 
     #[inline(always)]
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>,
         rest: &[R; 10],
         to: &mut (impl Components<R> + ?Sized),
     ) -> R {

@@ -7,7 +7,7 @@ use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
-use crate::point::invariants::{gradient_is_in_range, stress_by_invariants};
+use crate::point::invariants::{Needed, gradient_is_in_range, stress_by_invariants, with_needed};
 use crate::point::matrix::{three, to_matrix};
 use crate::point::{stress, stress_is_finite};
 use crate::status::Status;
@@ -60,49 +60,44 @@ impl<E: Scalar, S: Site> Kernel<E> for StressAt<'_, E, S> {
 pub(crate) struct StressByInvariants<'a, E> {
     pub(crate) F: Source<'a, E, 9>,
     pub(crate) gradients: &'a Rows<E, 3>,
-    pub(crate) has_second_invariant: bool,
+    pub(crate) needed: Needed,
     pub(crate) outputs: Outputs<'a, E>,
     pub(crate) count: usize,
     pub(crate) line: &'a mut LineBuffer<E>,
     pub(crate) to: Sink<'a, E>,
 }
 
-/// Runs the kernel for the outputs, with or without terms in I2. Returns the points whose result is finite.
+/// Runs the kernel for the outputs. Returns the points whose result is finite.
 pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, stress: StressByInvariants<'_, E>) -> u64 {
-    match (stress.outputs, stress.has_second_invariant) {
-        (Outputs::Points, true) => backend.run(ByInvariantsAt::<_, Points, true>(stress, ())),
-        (Outputs::Points, false) => backend.run(ByInvariantsAt::<_, Points, false>(stress, ())),
-        (Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes), true) => {
-            backend.run(ByInvariantsAt::<_, Elements, true>(stress, shapes))
-        }
-        (Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes), false) => {
-            backend.run(ByInvariantsAt::<_, Elements, false>(stress, shapes))
+    match stress.outputs {
+        Outputs::Points => backend.run(ByInvariantsAt::<_, Points>(stress, ())),
+        Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes) => {
+            backend.run(ByInvariantsAt::<_, Elements>(stress, shapes))
         }
     }
 }
 
 /// Kernel of [`StressByInvariants`], with the shapes at rest.
-struct ByInvariantsAt<'a, E: Scalar, S: Site, const HAS_SECOND: bool>(
-    StressByInvariants<'a, E>,
-    S::Shapes<'a, E>,
-);
+struct ByInvariantsAt<'a, E: Scalar, S: Site>(StressByInvariants<'a, E>, S::Shapes<'a, E>);
 
-impl<E: Scalar, S: Site, const HAS_SECOND: bool> Kernel<E> for ByInvariantsAt<'_, E, S, HAS_SECOND> {
+impl<E: Scalar, S: Site> Kernel<E> for ByInvariantsAt<'_, E, S> {
     type Output = u64;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let Self(StressByInvariants { F, gradients, count, line, mut to, .. }, shapes) = self;
+        let Self(StressByInvariants { F, gradients, needed, count, line, mut to, .. }, shapes) = self;
         let mut finite = 0;
-        for_each_group!(R, count, |at| {
-            let F = to_matrix(F.get_all::<R>(at));
-            let gradient = gradients.get_all(at);
-            let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradient);
-            let rest = S::rest(&shapes, at);
-            let is_finite = gradient_is_in_range(gradient) & S::stays_finite(&stress, &rest);
-            finite |= R::bits(is_finite) << at;
-            S::put(&stress, &rest, &mut to, line, at);
-            S::finish::<R>(&mut to, line, at, count);
+        with_needed!(needed, |needed| {
+            for_each_group!(R, count, |at| {
+                let F = to_matrix(F.get_all::<R>(at));
+                let gradient = gradients.get_all(at);
+                let stress = stress_by_invariants(&F, gradient, needed);
+                let rest = S::rest(&shapes, at);
+                let is_finite = gradient_is_in_range(gradient) & S::stays_finite(&stress, &rest);
+                finite |= R::bits(is_finite) << at;
+                S::put(&stress, &rest, &mut to, line, at);
+                S::finish::<R>(&mut to, line, at, count);
+            });
         });
         finite & first_bits(count)
     }

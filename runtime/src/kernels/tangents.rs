@@ -128,7 +128,7 @@ pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, tangents: TangentsB
 
 /// Runs a kernel with the terms that do not vanish.
 ///
-/// Each of the four kernels pays: with those of all terms instead, tangents of Saint Venant–Kirchhoff take
+/// Each of the five kernels pays: with those of all terms instead, tangents of Saint Venant–Kirchhoff take
 /// 14 % more instructions, and those of energies in I1 and J 27 %.
 fn with_terms<'a, E, S, F, const N: usize>(
     backend: Backend,
@@ -142,23 +142,37 @@ where
     F: Output<S, N>,
 {
     let has_second = tangents.has_second_invariant;
-    match (has_second, tangents.curvature.has_all(has_second)) {
-        (true, true) => backend.run(ByInvariants::<_, S, _, true, true, N>(tangents, shapes, form)),
-        (true, false) => backend.run(ByInvariants::<_, S, _, true, false, N>(tangents, shapes, form)),
-        (false, true) => backend.run(ByInvariants::<_, S, _, false, true, N>(tangents, shapes, form)),
-        (false, false) => backend.run(ByInvariants::<_, S, _, false, false, N>(tangents, shapes, form)),
+    match tangents.curvature.terms(has_second) {
+        [true, true, _] => backend.run(ByInvariants::<_, S, _, true, true, true, N>(tangents, shapes, form)),
+        [true, false, true] => {
+            backend.run(ByInvariants::<_, S, _, true, false, true, N>(tangents, shapes, form))
+        }
+        [true, false, false] => {
+            backend.run(ByInvariants::<_, S, _, true, false, false, N>(tangents, shapes, form))
+        }
+        [false, true, _] => {
+            backend.run(ByInvariants::<_, S, _, false, true, true, N>(tangents, shapes, form))
+        }
+        [false, false, _] => {
+            backend.run(ByInvariants::<_, S, _, false, false, true, N>(tangents, shapes, form))
+        }
     }
 }
 
 /// Kernel of [`TangentsByInvariants`], with the shapes at rest and a form of the second output.
-struct ByInvariants<'a, E: Scalar, S: Site, M, const HAS_SECOND: bool, const HAS_ALL: bool, const N: usize>(
-    TangentsByInvariants<'a, E>,
-    S::Shapes<'a, E>,
+struct ByInvariants<
+    'a,
+    E: Scalar,
+    S: Site,
     M,
-);
+    const HAS_SECOND: bool,
+    const HAS_ALL: bool,
+    const HAS_VOLUME: bool,
+    const N: usize,
+>(TangentsByInvariants<'a, E>, S::Shapes<'a, E>, M);
 
-impl<E, S, M, const HAS_SECOND: bool, const HAS_ALL: bool, const N: usize> Kernel<E>
-    for ByInvariants<'_, E, S, M, HAS_SECOND, HAS_ALL, N>
+impl<E, S, M, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool, const N: usize> Kernel<E>
+    for ByInvariants<'_, E, S, M, HAS_SECOND, HAS_ALL, HAS_VOLUME, N>
 where
     E: Scalar,
     S: Site,
@@ -174,7 +188,8 @@ where
         let mut served = 0;
         for_each_group!(R, count, |at| {
             let (F, invariants) = (to_matrix(F.get_all::<R>(at)), invariants.get_all(at));
-            let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives.get_all(at));
+            let terms =
+                Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives.get_all(at));
             let rest = S::rest(&shapes, at);
             // The larger output first: what P needs of the registers stays in few.
             let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));

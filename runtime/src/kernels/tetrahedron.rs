@@ -6,8 +6,8 @@
 use super::form::{FullStiffness, Output, cap_twist, gradient_is_finite, put_gradient};
 use crate::lanes::{Mask, Real, Truth};
 use crate::material::{Blocks, PAIRS, Response};
-use crate::point::invariants::invariants;
 use crate::point::invariants::tangent::Terms;
+use crate::point::invariants::{Needed, invariants};
 use crate::point::matrix::{dot, symmetric, three, transpose};
 use crate::point::{Filter, Matrix3, Point, Tangent, entries_are_finite, evaluate, multiply};
 use crate::status::Status;
@@ -38,11 +38,12 @@ pub fn evaluate_tetrahedron<R: Real>(
         return by_decomposition(material, &F, &rest, filter);
     }
     let has_second = material.has_second_invariant();
-    let (served, by_invariants) = match (has_second, material.curvature_by_invariants().has_all(has_second)) {
-        (true, true) => by_invariants::<R, true, true>(material, &F, &rest),
-        (true, false) => by_invariants::<R, true, false>(material, &F, &rest),
-        (false, true) => by_invariants::<R, false, true>(material, &F, &rest),
-        (false, false) => by_invariants::<R, false, false>(material, &F, &rest),
+    let (served, by_invariants) = match material.curvature_by_invariants().terms(has_second) {
+        [true, true, _] => by_invariants::<R, true, true, true>(material, &F, &rest),
+        [true, false, true] => by_invariants::<R, true, false, true>(material, &F, &rest),
+        [true, false, false] => by_invariants::<R, true, false, false>(material, &F, &rest),
+        [false, true, _] => by_invariants::<R, false, true, true>(material, &F, &rest),
+        [false, false, _] => by_invariants::<R, false, false, true>(material, &F, &rest),
     };
     if !(!served).any() {
         return by_invariants;
@@ -95,17 +96,19 @@ fn by_decomposition<R: Real>(
 }
 
 /// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
-fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
+fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
     material: &impl Response<R>,
     F: &Matrix3<R>,
     rest: &[R; 10],
 ) -> (R::Mask, DenseTetrahedron<R>) {
-    let (invariants, is_in_range) = invariants(F, HAS_SECOND);
+    let curvature = material.curvature_by_invariants();
+    let (invariants, is_in_range) = invariants(F, Needed::for_derivatives(HAS_SECOND, curvature));
     let derivatives = material.derivatives_by_invariants(invariants);
-    let (name, inputs) = (Terms::<R, HAS_SECOND, HAS_ALL>::STIFFNESS, (*F, invariants, derivatives, *rest));
+    let (name, inputs) =
+        (Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::STIFFNESS, (*F, invariants, derivatives, *rest));
     let (gradient, stiffness, Truth(is_good)) =
         R::stage(name, inputs, |(F, invariants, derivatives, rest)| {
-            let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives);
+            let terms = Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives);
             let (mut gradient, mut stiffness) = ([R::splat(0.0); 12], [R::splat(0.0); 144]);
             let largest = FullStiffness::put_all_by_invariants(&terms, &rest, &mut stiffness);
             put_gradient(&terms.stress(), &rest, &mut gradient);

@@ -75,7 +75,7 @@ impl<P: Primitive + Lanes> Real for Lanes2<P> {
     const MIN_POSITIVE: f64 = P::MIN_POSITIVE;
 
     elementary_functions!();
-    halves! { sqrt(), reciprocal_sqrt(), rough_sqrt(), abs(), max(other), min(other), copysign(sign) }
+    halves! { sqrt(), reciprocal_sqrt(), abs(), max(other), min(other), copysign(sign) }
 
     #[inline(always)]
     fn splat(value: f64) -> Self {

@@ -86,13 +86,6 @@ pub trait Real:
     fn reciprocal_sqrt(self) -> Self {
         Self::splat(1.0) / self.sqrt()
     }
-    /// √self to 2⁻¹² at least for a normal self > 0, by a fast instruction where there is one.
-    #[doc(hidden)] // for sizes of roundings
-    #[must_use]
-    #[inline(always)]
-    fn rough_sqrt(self) -> Self {
-        self.sqrt()
-    }
     /// ∛self.
     #[must_use]
     fn cbrt(self) -> Self;

@@ -317,12 +317,6 @@ macro_rules! register_512 {
                 }
 
                 #[inline(always)]
-                fn rough_sqrt(self) -> Self {
-                    // SAFETY: the processor has this instruction, or there would be no value of this type.
-                    self * Self(unsafe { $rsqrt(self.0) })
-                }
-
-                #[inline(always)]
                 fn copysign(self, sign: Self) -> Self {
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
                     // The table picks a bit of `sign` where the last operand is set, else one of self.
@@ -417,7 +411,7 @@ macro_rules! register_256 {
         and $and:ident, or $or:ident, casts $to_bits:ident $from_bits:ident,
         integers $set_bits:ident $subtract:ident $shift_left:ident, mantissa $mantissa:literal,
         constants: $power:expr, $two_biases:expr, $bias:expr,
-        roots: |$x:ident| $reciprocal_sqrt:expr, $rough_sqrt:expr,
+        roots: |$x:ident| $reciprocal_sqrt:expr,
         split: |$split:ident| $split_body:expr,
         xor $xor:ident, and_not $and_not:ident,
         $($operations:tt)*
@@ -486,12 +480,6 @@ macro_rules! register_256 {
                 }
 
                 #[inline(always)]
-                fn rough_sqrt(self) -> Self {
-                    let $x = self;
-                    $rough_sqrt
-                }
-
-                #[inline(always)]
                 fn copysign(self, sign: Self) -> Self {
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
                     Self(unsafe { $or(self.abs().0, $and(sign.0, Self::splat(-0.0).0)) })
@@ -531,7 +519,7 @@ register_256! {
     and _mm256_and_pd, or _mm256_or_pd, casts _mm256_castpd_si256 _mm256_castsi256_pd,
     integers _mm256_set1_epi64x _mm256_sub_epi64 _mm256_slli_epi64, mantissa 52,
     constants: 0x7ff << 52, 2046 << 52, 1023.0,
-    roots: |x| Self::splat(1.0) / x.sqrt(), x.sqrt(),
+    roots: |x| Self::splat(1.0) / x.sqrt(),
     split: |x| {
         // There is no arithmetic shift of 64 bits: 1024 is added to the exponent first.
         let offset = _mm256_set1_epi64x((1024 << 52) - std::f64::consts::FRAC_1_SQRT_2.to_bits() as i64);
@@ -562,11 +550,6 @@ register_256! {
         let y = Self(unsafe { _mm256_rsqrt_ps(x.0) });
         let e = (-(x * y)).mul_add(y, Self::splat(1.0));
         y.mul_add(e * e.mul_add(Self::splat(0.375), Self::splat(0.5)), y)
-    }, {
-        // SAFETY: the processor has this instruction, or there would be no value of this type.
-        let y = Self(unsafe { _mm256_rsqrt_ps(x.0) });
-        let e = (-(x * y)).mul_add(y, Self::splat(1.0));
-        x * y.mul_add(e * Self::splat(0.5), y)
     },
     split: |x| {
         let smallest = _mm256_set1_epi32(std::f32::consts::FRAC_1_SQRT_2.to_bits() as i32);

@@ -30,7 +30,7 @@ impl Properties {
         Self {
             has_invariants: materials.iter().all(Material::has_invariants),
             has_second_invariant: materials.iter().any(Material::has_second_invariant),
-            curvature: curvatures.fold(Curvature::Volume, Curvature::and),
+            curvature: curvatures.reduce(Curvature::and).unwrap_or(Curvature::All),
             has_energy_by_invariants: materials.iter().all(Material::has_energy_by_invariants),
             has_pole: materials.iter().any(Material::has_pole),
             ends_at_zero_volume: materials.iter().any(Material::ends_at_zero_volume),

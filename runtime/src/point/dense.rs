@@ -2,8 +2,8 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::invariants::invariants;
 use super::invariants::tangent::{Entries, Terms};
+use super::invariants::{Needed, invariants};
 use super::{Filter, Matrix3, evaluate};
 use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::Response;
@@ -40,11 +40,12 @@ pub fn evaluate_dense<R: Real>(
         return by_decomposition(material, F, filter);
     }
     let has_second = material.has_second_invariant();
-    let (served, mut dense) = match (has_second, material.curvature_by_invariants().has_all(has_second)) {
-        (true, true) => by_invariants::<R, true, true>(material, F),
-        (true, false) => by_invariants::<R, true, false>(material, F),
-        (false, true) => by_invariants::<R, false, true>(material, F),
-        (false, false) => by_invariants::<R, false, false>(material, F),
+    let (served, mut dense) = match material.curvature_by_invariants().terms(has_second) {
+        [true, true, _] => by_invariants::<R, true, true, true>(material, F),
+        [true, false, true] => by_invariants::<R, true, false, true>(material, F),
+        [true, false, false] => by_invariants::<R, true, false, false>(material, F),
+        [false, true, _] => by_invariants::<R, false, true, true>(material, F),
+        [false, false, _] => by_invariants::<R, false, false, true>(material, F),
     };
     if (!served).any() {
         let other = by_decomposition(material, F, filter);
@@ -73,15 +74,16 @@ fn by_decomposition<R: Real>(
 
 /// Point by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
 #[inline(always)]
-fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
+fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
     material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
 ) -> (R::Mask, DensePoint<R>) {
-    let (invariants, is_in_range) = invariants(F, HAS_SECOND);
+    let curvature = material.curvature_by_invariants();
+    let (invariants, is_in_range) = invariants(F, Needed::for_derivatives(HAS_SECOND, curvature));
     let derivatives = material.derivatives_by_invariants(invariants);
-    let (F, name) = (*F, Terms::<R, HAS_SECOND, HAS_ALL>::TANGENT);
+    let (F, name) = (*F, Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::TANGENT);
     let (stress, tangent, Truth(keeps_digits)) = stage!(R, name, (F, invariants, derivatives) => {
-        let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives);
+        let terms = Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives);
         let mut tangent = [[R::splat(0.0); 9]; 9];
         let largest = terms.assemble(&Entries, &mut tangent);
         (terms.stress(), tangent, Truth(terms.keeps_digits(largest)))

@@ -25,42 +25,98 @@
 use super::Matrix3;
 use super::matrix::{dot, three};
 use crate::lanes::{Real, Truth, stage};
+use crate::material::Curvature;
 
 pub(crate) mod tangent;
 
-/// Invariants I1, I2, J, with a mask of whether they and the results computed from them stay in range. I2 is
-/// zero if it is not requested.
+/// Invariants that an energy's derivatives depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Needed {
+    /// I1, of f(I1) + d I2: [`Curvature::First`].
+    First,
+    /// I1 and J.
+    WithoutSecond,
+    /// I1, I2 and J.
+    All,
+}
+
+impl Needed {
+    /// Invariants that ψ depends on.
+    #[inline(always)]
+    pub(crate) fn for_energy(has_second: bool) -> Self {
+        if has_second { Self::All } else { Self::WithoutSecond }
+    }
+
+    /// Invariants that the derivatives of ψ depend on.
+    #[inline(always)]
+    pub(crate) fn for_derivatives(has_second: bool, curvature: Curvature) -> Self {
+        if has_second && curvature == Curvature::First { Self::First } else { Self::for_energy(has_second) }
+    }
+}
+
+/// Runs a block for what is needed as a constant, so that a loop in it is compiled for each.
+#[cfg(feature = "batch")]
+macro_rules! with_needed {
+    ($value:expr, |$needed:ident| $body:block) => {
+        match $value {
+            Needed::First => {
+                let $needed = Needed::First;
+                $body
+            }
+            Needed::WithoutSecond => {
+                let $needed = Needed::WithoutSecond;
+                $body
+            }
+            Needed::All => {
+                let $needed = Needed::All;
+                $body
+            }
+        }
+    };
+}
+#[cfg(feature = "batch")]
+pub(crate) use with_needed;
+
+/// Invariants I1, I2, J, with a mask of whether they and the results computed from them stay in range. Those
+/// that are not needed are zero.
 #[inline(always)]
-pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], R::Mask) {
+pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, needed: Needed) -> ([R; 3], R::Mask) {
     let F = *F;
-    let name = if has_second { "invariants" } else { "invariants_without_I2" };
-    let (invariants, Truth(is_in_range)) = stage!(R, name, (F) => in_range(&F, has_second));
+    let name = match needed {
+        Needed::First => "first_invariant",
+        Needed::WithoutSecond => "invariants_without_I2",
+        Needed::All => "invariants",
+    };
+    let (invariants, Truth(is_in_range)) = stage!(R, name, (F) => in_range(&F, needed));
     (invariants, is_in_range)
 }
 
 #[inline(always)]
-fn in_range<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], Truth<R::Mask>) {
-    let I1 = square(F);
+fn in_range<R: Real>(F: &Matrix3<R>, needed: Needed) -> ([R; 3], Truth<R::Mask>) {
+    // The eighth root of the range of entries: I2 and N below are of degree 4 and 6.
+    let (low, high) = (R::splat(R::min_positive().powf(0.25)), R::splat(R::min_positive().powf(-0.25)));
+    let (zero, I1) = (R::splat(0.0), square(F));
+    let room = (I1 - low).min(high - I1);
+    if needed == Needed::First {
+        return ([I1, zero, zero], Truth(zero.less(room)));
+    }
     let normal = exact_minors(F);
     let terms = three!(j => F[0][j] * normal[j]);
     let J = F[0][0].mul_add(normal[0], F[0][1].mul_add(normal[1], terms[2]));
-    let I2 = if has_second {
+    let I2 = if needed == Needed::All {
         let [_, second, third] = cofactor(F);
         dot(normal, normal) + dot(second, second) + dot(third, third)
     } else {
-        R::splat(0.0)
+        zero
     };
 
-    // The eighth root of the range of entries: I2 and N below are of degree 4 and 6.
-    let (low, high) = (R::splat(R::min_positive().powf(0.25)), R::splat(R::min_positive().powf(-0.25)));
     // Nearer to zero, products of entries underflow, here or relative to the largest one, or J is less than
     // 2¹⁰ times what rounding does to its terms, so that neither its digits nor its sign are sure. There a
     // point is decomposed, and it is the decomposition that refuses.
     let threshold = R::splat(R::min_positive() / R::unit_roundoff());
     let size = terms[0].abs() + terms[1].abs() + terms[2].abs();
     let smallest = R::splat(1024.0 * R::unit_roundoff()).mul_add(size, threshold.mul_add(I1 * I1, threshold));
-    let room = (I1 - low).min(high - I1).min(J.abs() - smallest);
-    ([I1, I2, J], Truth(R::splat(0.0).less(room)))
+    ([I1, I2, J], Truth(zero.less(room.min(J.abs() - smallest))))
 }
 
 /// Minors of the first row of F, each within 2u of itself if no product underflows.
@@ -82,14 +138,23 @@ fn square<R: Real>(A: &Matrix3<R>) -> R {
 
 /// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 counts as zero.
 #[inline(always)]
-pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(F: &Matrix3<R>, W: [R; 3]) -> Matrix3<R> {
+pub(crate) fn stress_by_invariants<R: Real>(F: &Matrix3<R>, W: [R; 3], needed: Needed) -> Matrix3<R> {
     let F = *F;
-    let name = if HAS_SECOND { "stress_by_invariants" } else { "stress_by_invariants_without_I2" };
+    let name = match needed {
+        Needed::All => "stress_by_invariants",
+        Needed::WithoutSecond => "stress_by_invariants_without_I2",
+        Needed::First => "stress_by_invariants_without_J",
+    };
     stage!(R, name, (F, W) => {
-        let C = cofactor(&F);
-        let D = if HAS_SECOND { second_derivative(&F) } else { C };
+        let C = if needed == Needed::First { F } else { cofactor(&F) };
+        let D = if needed == Needed::WithoutSecond { C } else { second_derivative(&F) };
         let [W1, W2, WJ] = W;
-        stress_of_terms::<R, HAS_SECOND>([&F, &D, &C], [W1 + W1, W2 + W2, WJ])
+        let along = [W1 + W1, W2 + W2, WJ];
+        match needed {
+            Needed::All => stress_of_terms::<R, true, true>([&F, &D, &C], along),
+            Needed::WithoutSecond => stress_of_terms::<R, false, true>([&F, &D, &C], along),
+            Needed::First => stress_of_terms::<R, true, false>([&F, &D, &C], along),
+        }
     })
 }
 
@@ -103,13 +168,14 @@ pub(crate) fn gradient_is_in_range<R: Real>([W1, W2, WJ]: [R; 3]) -> R::Mask {
 
 /// The sum of F, D and C times a factor each.
 #[inline(always)]
-fn stress_of_terms<R: Real, const HAS_SECOND: bool>(
+fn stress_of_terms<R: Real, const HAS_SECOND: bool, const HAS_VOLUME: bool>(
     [F, D, C]: [&Matrix3<R>; 3],
     [along_F, along_D, along_C]: [R; 3],
 ) -> Matrix3<R> {
-    three!(i => three!(j => {
-        let P = along_F.mul_add(F[i][j], along_C * C[i][j]);
-        if HAS_SECOND { along_D.mul_add(D[i][j], P) } else { P }
+    three!(i => three!(j => match (HAS_SECOND, HAS_VOLUME) {
+        (true, true) => along_D.mul_add(D[i][j], along_F.mul_add(F[i][j], along_C * C[i][j])),
+        (true, false) => along_D.mul_add(D[i][j], along_F * F[i][j]),
+        (false, _) => along_F.mul_add(F[i][j], along_C * C[i][j]),
     }))
 }
 

@@ -80,31 +80,7 @@ pub fn document() -> Result<String, String> {
     Ok(INTRODUCTION.to_owned() + &tables(&rows))
 }
 
-const INTRODUCTION: &str = "\
-# Stability
-
-Recomputed by `cargo test -p piola-baselines --test stability`, which writes it if `PIOLA_BLESS=1` is set.
-
-The tables have the errors ‖X − X*‖ of P, of K = dP/dF and of S, its projection to semidefinite matrices, against reference values
-of 25 digits (`tests/reference`), in units of u (‖X*‖ + sens). u is 2⁻⁵³ in f64 and 2⁻²⁴ in f32, norms are Frobenius norms, and sens is
-the sensitivity of X to a relative change of F. The errors of a backward-stable method stay below a few tens in all cases; 1e6 means
-that six digits are lost in addition to those that rounding of F costs. Errors up to 30 are rounded up to integers, larger ones to
-powers of ten; ∞ is a result with an infinity or NaN.
-
-All methods get the same F, the same singular value decomposition and the same ψi and ψij:
-
-* **piola**: `piola::point::evaluate`;
-* **naive**: plain quotients (ψi ∓ ψj)/(λi ∓ λj);
-* **switch**: the same, but the limits ψii ∓ ψij if |λi ∓ λj| < 10⁻⁶ max(|λi|, |λj|);
-* **paper**: [SZLSB11] with its misprints corrected: derivatives of U, λ and V from 2×2 systems, regularised by (AᵀA + 10⁻¹² I)
-  if |λi² − λj²| < 10⁻⁶; its S is computed by an eigensolver for 9×9 matrices, from the symmetric part.
-
-Materials run with `Inversion::Refuse`. f32 is tested if F is exact in it. Values outside the range of a format are omitted. Two
-properties of the machine change errors by a unit or two: fused multiplications and additions, and the platform's ln, exp and pow. This
-table was made without fused operations, on baseline x86-64; `-C target-cpu=native` and AArch64 have them.
-
-[SZLSB11] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
-";
+const INTRODUCTION: &str = include_str!("stability/introduction.md");
 
 fn tables(rows: &Rows<'_>) -> String {
     let mut text = String::new();

@@ -12,6 +12,7 @@
 //! where [`power_sums`](super::power_sums) sees it.
 
 use crate::algebra::expr::{Graph, Id};
+use crate::read::domain::Volume;
 
 /// An energy in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
 #[derive(Clone, Debug)]
@@ -31,6 +32,8 @@ pub struct ByInvariants {
 /// Second derivatives by invariants that do not vanish everywhere, of which the runtime compiles terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curvature {
+    /// W11 of f(I1) + d I2, without J and without a condition on I2 or J.
+    First,
     /// WJJ only.
     Volume,
     /// W11 and WJJ.
@@ -40,11 +43,14 @@ pub enum Curvature {
 }
 
 impl ByInvariants {
-    /// The second derivatives that do not vanish everywhere.
+    /// The second derivatives that do not vanish everywhere, of an energy with this domain.
     #[must_use]
-    pub fn curvature(&self, graph: &Graph) -> Curvature {
+    pub fn curvature(&self, graph: &Graph, volume: Volume) -> Curvature {
         let [w11, w22, _, w12, w1j, w2j] = self.hessian.map(|derivative| !graph.is_zero(derivative));
+        let [_, has_second, has_volume] = self.gradient.map(|derivative| !graph.is_zero(derivative));
+        let is_conditional = volume != Volume::Any || !self.bounds.is_empty();
         match (w11, w22 || w12 || w1j || w2j) {
+            (_, false) if has_second && !has_volume && !is_conditional => Curvature::First,
             (false, false) => Curvature::Volume,
             (true, false) => Curvature::Separate,
             (_, true) => Curvature::All,

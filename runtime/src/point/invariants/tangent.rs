@@ -32,13 +32,14 @@
 //! not larger together than
 //!
 //! ```text
-//! N = 2 |W1| + f |WJ| + 2 (c + 3 I1) |W2| + 4 f² |W11| + 4 d² |W22| + c² |WJJ|
+//! 2 |W1| + f |WJ| + 2 (c + 3 I1) |W2| + 4 f² |W11| + 4 d² |W22| + c² |WJJ|
 //!   + 8 f d |W12| + 4 f c |W1J| + 4 c d |W2J|
 //! ```
 //!
-//! and its error is a few u N. At rest, where f² = 3 bounds entries that are 1, N is 3 to 9 times the largest
-//! entry on the diagonal for the energies in use. A point where it is more than 16 times that entry goes the
-//! way of all others: [`Terms::keeps_digits`].
+//! and its error is a few u times that. N is a bound of it without roots, with c ≤ f²/√3 and means of squares
+//! in the place of products, all equal at rest. At rest, where f² = 3 bounds entries that are 1, N is 3 to 9
+//! times the largest entry on the diagonal for the energies in use. A point where it is more than
+//! [`MAX_CANCELLATION`] times that entry goes the way of all others: [`Terms::keeps_digits`].
 
 #![expect(non_snake_case, reason = "F, C, D, P, T, I1, I2, J, W as in the text above")]
 
@@ -51,9 +52,9 @@ use super::{cofactor, second_derivative, square, stress_of_terms};
 use crate::lanes::Real;
 
 /// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
-/// without `HAS_SECOND` or `HAS_ALL` as in [`Terms`].
+/// without `HAS_SECOND`, `HAS_ALL` or `HAS_VOLUME` as in [`Terms`].
 #[inline(always)]
-fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
+fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
     [I1, I2, J]: [R; 3],
     derivatives: &[R; 9],
 ) -> (R, R) {
@@ -63,26 +64,38 @@ fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     }
     let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = sizes;
     let (two, four) = (R::splat(2.0), R::splat(4.0));
-    let (f, c) = (I1.rough_sqrt(), I2.rough_sqrt());
-    let (first, last) = (two * W1, f.mul_add(WJ, c * (c * WJJ)));
-    let mut own = first + last;
+    let (mut tangent, mut stress) = (two * W1, two * W1);
+    if HAS_VOLUME {
+        // f ≤ (f² + 3)/(2√3).
+        let f = I1.mul_add(R::splat(0.5 * FRAC_1_SQRT_3), R::splat(1.5 * FRAC_1_SQRT_3));
+        tangent = f.mul_add(WJ, I2.mul_add(WJJ, tangent));
+        stress = stress + WJ;
+    }
+    if HAS_SECOND {
+        // c ≤ f²/√3.
+        tangent = (R::splat(6.0 + 2.0 * FRAC_1_SQRT_3) * I1).mul_add(W2, tangent);
+        stress = two.mul_add(W2, stress);
+    }
     if HAS_SECOND || HAS_ALL {
-        own = (two * f).mul_add(two * f * W11, own);
+        tangent = (four * I1).mul_add(W11, tangent);
     }
     if HAS_ALL {
-        own = (two * f).mul_add(two * c * W1J, own);
+        // f c ≤ (f² + c²)/2.
+        tangent = (two * (I1 + I2)).mul_add(W1J, tangent);
     }
-    let stress = f.mul_add(first, c * WJ);
-    if !HAS_SECOND {
-        return (own, stress);
+    if HAS_SECOND && HAS_ALL {
+        // f d ≤ f² + d²/4 and c d ≤ c² + d²/4.
+        let d2 = R::splat(3.0).mul_add(J * J, I1 * I2);
+        tangent = (four * d2).mul_add(W22, tangent);
+        tangent = R::splat(8.0).mul_add(I1, two * d2).mul_add(W12, tangent);
+        tangent = four.mul_add(I2, d2).mul_add(W2J, tangent);
     }
-    let d = R::splat(3.0).mul_add(J * J, I1 * I2).rough_sqrt();
-    let mut tangent = (two * W2).mul_add(R::splat(3.0).mul_add(I1, c), own);
-    if HAS_ALL {
-        tangent = (four * d).mul_add(d.mul_add(W22, (two * f).mul_add(W12, c * W2J)), tangent);
-    }
-    (tangent, d.mul_add(two * W2, stress))
+    // No entry of F, C and D exceeds (1 + f²)².
+    let largest = R::splat(1.0) + I1;
+    (tangent, largest * (largest * stress))
 }
+
+const FRAC_1_SQRT_3: f64 = 0.577_350_269_189_625_8;
 
 /// Coordinates of a tangent: the rows of W.
 pub(crate) trait Coordinates<R> {
@@ -168,9 +181,9 @@ struct Pulled<R> {
 /// The matrices and factors that P and dP/dF are made of at a point.
 ///
 /// Without `HAS_SECOND`, derivatives by I2 are taken for zero. Without `HAS_ALL`, so are the second
-/// derivatives other than WJJ and, with `HAS_SECOND`, W11. The few forms that this makes are each compiled
-/// for every output.
-pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool> {
+/// derivatives other than WJJ and, with `HAS_SECOND`, W11; without `HAS_VOLUME` so are WJ and WJJ, and I1 is
+/// the only invariant. The few forms that this makes are each compiled for every output.
+pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool> {
     F: Matrix3<R>,
     C: Matrix3<R>,
     D: Matrix3<R>,
@@ -186,10 +199,13 @@ pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool> {
     bounds: (R, R),
 }
 
-impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, HAS_ALL> {
+impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>
+    Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>
+{
     /// Name of the stage from these terms to P and dP/dF.
     pub(crate) const TANGENT: &'static str = match (HAS_SECOND, HAS_ALL) {
         (true, true) => "tangent_by_invariants",
+        (true, false) if !HAS_VOLUME => "tangent_by_invariants_without_mixed_and_J",
         (true, false) => "tangent_by_invariants_without_mixed",
         (false, true) => "tangent_by_invariants_without_I2",
         (false, false) => "tangent_by_invariants_without_I2_and_mixed",
@@ -199,6 +215,7 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
     #[cfg(all(feature = "interpreter", not(test)))]
     pub(crate) const STIFFNESS: &'static str = match (HAS_SECOND, HAS_ALL) {
         (true, true) => "stiffness_by_invariants",
+        (true, false) if !HAS_VOLUME => "stiffness_by_invariants_without_mixed_and_J",
         (true, false) => "stiffness_by_invariants_without_mixed",
         (false, true) => "stiffness_by_invariants_without_I2",
         (false, false) => "stiffness_by_invariants_without_I2_and_mixed",
@@ -219,15 +236,18 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
             F: *F,
             C,
             D,
-            P: stress_of_terms::<R, HAS_SECOND>([F, &D, &C], [p1, p2, WJ]),
+            P: stress_of_terms::<R, HAS_SECOND, HAS_VOLUME>([F, &D, &C], [p1, p2, WJ]),
             T: three!(i => three!(j => {
-                let T = WJ * F[i][j];
-                if HAS_SECOND { p2.mul_add(C[i][j], T) } else { T }
+                match (HAS_SECOND, HAS_VOLUME) {
+                    (true, true) => p2.mul_add(C[i][j], WJ * F[i][j]),
+                    (true, false) => p2 * C[i][j],
+                    (false, _) => WJ * F[i][j],
+                }
             })),
             b: if HAS_SECOND { gram(F) } else { *F },
             along: [if HAS_SECOND { p2.mul_add(I1, p1) } else { p1 }, p2],
             factors: [[if HAS_SECOND { a11 + p2 } else { a11 }, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]],
-            bounds: bounds::<R, HAS_SECOND, HAS_ALL>(invariants, derivatives),
+            bounds: bounds::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>(invariants, derivatives),
         }
     }
 
@@ -251,7 +271,10 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
         let (tangent, stress) = self.bounds;
         // Of tiny F the factors are far larger than the products.
         let [[a11, a12, a1J], [_, a22, a2J], [.., aJJ]] = self.factors;
-        let mut sizes = tangent + stress + aJJ.abs();
+        let mut sizes = tangent + stress;
+        if HAS_VOLUME {
+            sizes = sizes + aJJ.abs();
+        }
         if HAS_SECOND || HAS_ALL {
             sizes = sizes + a11.abs();
         }
@@ -296,14 +319,17 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
     /// F̃ax h̃F + D̃ax h̃D + C̃ax h̃C and another term.
     #[inline(always)]
     fn ranks(&self, [F, D, C]: [R; 3], [hF, hD, hC]: [R; 3], other: Option<R>) -> R {
-        let mut sum = match other {
-            Some(other) => C.mul_add(hC, other),
-            None => C * hC,
-        };
-        if HAS_SECOND || HAS_ALL {
-            sum = F.mul_add(hF, sum);
+        let mut sum = other;
+        if HAS_VOLUME {
+            sum = add(C, hC, sum);
         }
-        if HAS_SECOND && HAS_ALL { D.mul_add(hD, sum) } else { sum }
+        if HAS_SECOND || HAS_ALL {
+            sum = add(F, hF, sum);
+        }
+        if HAS_SECOND && HAS_ALL {
+            sum = add(D, hD, sum);
+        }
+        sum.unwrap_or(R::splat(0.0))
     }
 
     /// K between (a, x) and (a, y), `metric` being the term with W Wᵀ.
@@ -403,6 +429,15 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
     }
 }
 
+/// a h and another term.
+#[inline(always)]
+fn add<R: Real>(a: R, h: R, other: Option<R>) -> Option<R> {
+    match other {
+        Some(other) => Some(a.mul_add(h, other)),
+        None => Some(a * h),
+    }
+}
+
 /// A Aᵀ.
 #[inline(always)]
 fn gram<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
@@ -415,4 +450,4 @@ const fn third(i: usize, j: usize) -> usize {
 }
 
 /// N by the largest entry on the diagonal of dP/dF, up to which the latter has its digits.
-const MAX_CANCELLATION: f64 = 16.0;
+const MAX_CANCELLATION: f64 = 64.0;

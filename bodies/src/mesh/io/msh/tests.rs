@@ -3,79 +3,10 @@
 use super::*;
 
 /// Two tetrahedra with odd node tags, a triangle on a named surface, a stray node, an unknown section.
-const GOOD: &str = r#"$MeshFormat
-4.1 0 8
-$EndMeshFormat
-$PhysicalNames
-2
-2 7 "left side"
-3 9 "flesh"
-$EndPhysicalNames
-$Entities
-1 0 1 2
-5 0 0 0 0
-3 0 0 0 1 1 1 1 -7 0
-1 0 0 0 1 1 1 1 9 0
-2 0 0 0 1 1 1 2 9 11 0
-$EndEntities
-$Comments
-anything
-$EndComments
-$Nodes
-2 6 3 1000
-0 5 0 1
-1000
-8 8 8
-3 1 0 5
-40
-3
-20
-10
-30
-0 0 0
-1 0 0
-0 1 0
-0 0 1
-1 1 1
-$EndNodes
-$Elements
-3 3 1 12
-2 3 2 1
-1 40 3 20
-3 1 4 1
-11 40 3 20 10
-3 2 4 1
-12 3 20 10 30
-$EndElements
-"#;
+const GOOD: &str = include_str!("tests/good.msh");
 
 /// The same in the older format; the second tetrahedron, of two groups, stands there twice.
-const OLDER: &str = r#"$MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-2
-2 7 "left side"
-3 9 "flesh"
-$EndPhysicalNames
-$Nodes
-6
-1000 8 8 8
-40 0 0 0
-3 1 0 0
-20 0 1 0
-10 0 0 1
-30 1 1 1
-$EndNodes
-$Elements
-5
-1 2 2 -7 3 40 3 20
-11 4 2 9 1 40 3 20 10
-12 4 2 9 2 3 20 10 30
-12 4 2 11 2 3 20 10 30
-13 15 2 0 5 1000
-$EndElements
-"#;
+const OLDER: &str = include_str!("tests/older.msh");
 
 #[test]
 fn both_formats_say_the_same() {
