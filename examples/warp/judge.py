@@ -24,12 +24,13 @@ def nodal_blocks(solver, mesh, x):
 
     @solver.kernel
     def blocks(of: Elements, x: wp.array(dtype=solver.vec3), block: wp.array(dtype=mat43)):
-        c = wp.tid()
-        block[c] = vertex(deformation(of, c / 4, x), of.rest[c], of.status, c / 4)
+        e = wp.tid()
+        for c in range(4 * e, 4 * e + 4):
+            block[c] = vertex(deformation(of, e, x), of.rest[c], of.status, e)
 
     solver.elements.status.zero_()
     found = wp.zeros(4 * len(mesh.volume), dtype=mat43)
-    wp.launch(blocks, len(found), [solver.elements, x, found])
+    wp.launch(blocks, len(mesh.volume), [solver.elements, x, found])
     stiffness, gradient = np.split(found.numpy().astype(float), [3], axis=1)
     return stiffness, gradient, solver.elements.status.numpy()
 

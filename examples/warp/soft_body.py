@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import warp as wp
 
-from implicit_euler import ImplicitEuler
 from mesh import Mesh
 
 DENSITY = 1000.0  # kg/m³
@@ -128,6 +127,8 @@ def main():
     mesh = Mesh(Path(__file__).parents[2] / "scenes/assets/horse.msh")
     solver = Solver(energy, arguments.precision, mesh)
     if arguments.newton:
+        from implicit_euler import ImplicitEuler
+
         newton = ImplicitEuler(emit(energy, "c", "f64", "energy,projected_tetrahedron"), mesh, solver.mass)
     start = mesh.nodes * {"flat": [1, 1, 0], "inside_out": [1, 1, -1]}[arguments.start]
     x, v, distance, at_rest = start, np.zeros_like(start), "", solver.energy(mesh.nodes)
