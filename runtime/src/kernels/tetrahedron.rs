@@ -4,7 +4,7 @@
 #![expect(non_snake_case, reason = "F, P, U, V, Ds, K as in the literature")]
 
 use super::form::{FullStiffness, Output, cap_twist, gradient_is_finite, put_gradient};
-use crate::lanes::{Mask, Real, Truth};
+use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::{Blocks, PAIRS, Response};
 use crate::point::invariants::tangent::Terms;
 use crate::point::invariants::{Needed, invariants};
@@ -29,7 +29,7 @@ pub fn evaluate_tetrahedron<R: Real>(
     rest: [R; 10],
     filter: Filter,
 ) -> DenseTetrahedron<R> {
-    let F = R::stage("deformation_gradient", (nodes, rest), |(nodes, rest)| {
+    let F = stage!(R, "deformation_gradient", (nodes, rest) => {
         let Ds = three!(a => three!(k => nodes[k + 1][a] - nodes[0][a]));
         let [a, b, c, d, e, f, g, h, i, _] = rest;
         multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]])
@@ -63,36 +63,44 @@ fn by_decomposition<R: Real>(
     rest: &[R; 10],
     filter: Filter,
 ) -> DenseTetrahedron<R> {
-    let Point { stress, tangent: Tangent { U, V, blocks }, status, .. } = evaluate(material, F, filter);
-    let rest = *rest;
-    let (gradient, Truth(is_finite)) = R::stage("gradient_of_stress", (stress, rest), |(stress, rest)| {
+    let Point { stress, tangent: Tangent { U, V, blocks }, status, .. } = capped(material, F, filter);
+    let (Blocks { hessian, flip, twist, .. }, rest) = (blocks, *rest);
+    let (gradient, Truth(is_finite)) = stage!(R, "gradient_of_stress", (stress, rest) => {
         let mut gradient = [R::splat(0.0); 12];
         put_gradient(&stress, &rest, &mut gradient);
         (gradient, Truth(gradient_is_finite(&stress, &rest)))
     });
-    let Blocks { gradient: psi_i, hessian, flip, twist } = blocks;
-    let with = |hessian, flip, twist| Blocks { gradient: psi_i, hessian, flip, twist };
-    let (twist, Truth(bounded)) = match material.has_pole() {
-        true => R::stage("cap_twist", (hessian, flip, twist), |(hessian, flip, twist)| {
-            let mut blocks = with(hessian, flip, twist);
-            let is_capped = cap_twist(&mut blocks);
-            (blocks.twist, Truth(is_capped))
-        }),
-        false => (twist, Truth(R::Mask::splat(false))),
-    };
-    let name = "stiffness_is_not_finite";
-    let Truth(nonfinite) = R::stage(name, (hessian, flip, twist, rest), |(hessian, flip, twist, rest)| {
-        Truth(FullStiffness::prepare(&mut with(hessian, flip, twist), &rest, false).nonfinite)
+    let Truth(stays_finite) = stage!(R, "stiffness_stays_finite", (hessian, flip, twist, rest) => {
+        Truth(!FullStiffness::prepare(&mut map(hessian, flip, twist), &rest, false).nonfinite)
     });
-    let frames = (U, V, hessian, flip, twist, rest);
-    let stiffness = R::stage("stiffness_in_frames", frames, |(U, V, hessian, flip, twist, rest)| {
+    let stiffness = stage!(R, "stiffness_in_frames", (U, V, hessian, flip, twist, rest) => {
         let mut stiffness = [R::splat(0.0); 144];
-        let tangent = Tangent { U, V, blocks: with(hessian, flip, twist) };
-        FullStiffness::put_all(&tangent, &rest, &mut stiffness);
+        FullStiffness::put_all(&Tangent { U, V, blocks: map(hessian, flip, twist) }, &rest, &mut stiffness);
         stiffness
     });
-    let nonfinite = nonfinite | !is_finite;
-    (gradient, stiffness, status | Status { bounded, nonfinite, ..Status::clean() })
+    let nonfinite = !(is_finite & stays_finite);
+    (gradient, stiffness, status | Status { nonfinite, ..Status::clean() })
+}
+
+/// Stress and tangent at F, with twists that a factorisation can resolve.
+fn capped<R: Real>(material: &impl Response<R>, F: &Matrix3<R>, filter: Filter) -> Point<R> {
+    let mut point = evaluate(material, F, filter);
+    if material.has_pole() {
+        let Blocks { hessian, flip, twist, .. } = point.tangent.blocks;
+        let (twist, Truth(bounded)) = stage!(R, "cap_twist", (hessian, flip, twist) => {
+            let mut blocks = map(hessian, flip, twist);
+            let is_capped = cap_twist(&mut blocks);
+            (blocks.twist, Truth(is_capped))
+        });
+        point.tangent.blocks.twist = twist;
+        point.status = point.status | Status { bounded, ..Status::clean() };
+    }
+    point
+}
+
+/// The map between principal frames, which does not depend on the gradient of the energy.
+fn map<R: Real>(hessian: [R; 6], flip: [R; 3], twist: [R; 3]) -> Blocks<R> {
+    Blocks { gradient: [R::splat(0.0); 3], hessian, flip, twist }
 }
 
 /// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
@@ -104,18 +112,16 @@ fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS
     let curvature = material.curvature_by_invariants();
     let (invariants, is_in_range) = invariants(F, Needed::for_derivatives(HAS_SECOND, curvature));
     let derivatives = material.derivatives_by_invariants(invariants);
-    let (name, inputs) =
-        (Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::STIFFNESS, (*F, invariants, derivatives, *rest));
-    let (gradient, stiffness, Truth(is_good)) =
-        R::stage(name, inputs, |(F, invariants, derivatives, rest)| {
-            let terms = Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives);
-            let (mut gradient, mut stiffness) = ([R::splat(0.0); 12], [R::splat(0.0); 144]);
-            let largest = FullStiffness::put_all_by_invariants(&terms, &rest, &mut stiffness);
-            put_gradient(&terms.stress(), &rest, &mut gradient);
-            let stays_finite = FullStiffness::stays_finite(terms.bound(), &rest)
-                & gradient_is_finite(&terms.stress(), &rest);
-            (gradient, stiffness, Truth(terms.keeps_digits(largest) & stays_finite))
-        });
+    let (name, F, rest) = (Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::STIFFNESS, *F, *rest);
+    let (gradient, stiffness, Truth(is_good)) = stage!(R, name, (F, invariants, derivatives, rest) => {
+        let terms = Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives);
+        let (mut gradient, mut stiffness) = ([R::splat(0.0); 12], [R::splat(0.0); 144]);
+        let largest = FullStiffness::put_all_by_invariants(&terms, &rest, &mut stiffness);
+        put_gradient(&terms.stress(), &rest, &mut gradient);
+        let stays_finite = FullStiffness::stays_finite(terms.bound(), &rest)
+            & gradient_is_finite(&terms.stress(), &rest);
+        (gradient, stiffness, Truth(terms.keeps_digits(largest) & stays_finite))
+    });
     let served = is_in_range & material.admits_invariants(invariants) & is_good;
     (served, (gradient, stiffness, Status::clean()))
 }
@@ -137,16 +143,14 @@ pub fn evaluate_vertex<R: Real>(
     rest: [R; 4],
     filter: Filter,
 ) -> DenseVertex<R> {
-    let Point { stress, tangent: Tangent { U, V, blocks }, status, .. } = evaluate(material, F, filter);
-    let gradient = R::stage(
-        "gradient_of_vertex",
-        (stress, rest),
-        |(P, [g1, g2, g3, v])| three!(a => v * dot(P[a], [g1, g2, g3])),
-    );
-    let Blocks { gradient: psi_i, hessian, flip, twist } = blocks;
-    let frames = (U, V, hessian, flip, twist, rest);
-    let stiffness = R::stage("vertex_in_frames", frames, |(U, V, hessian, flip, twist, [g1, g2, g3, v])| {
-        let blocks = Blocks { gradient: psi_i, hessian, flip, twist };
+    let Point { stress, tangent: Tangent { U, V, blocks }, status, .. } = capped(material, F, filter);
+    let gradient = stage!(R, "gradient_of_vertex", (stress, rest) => {
+        let [g1, g2, g3, v] = rest;
+        three!(a => v * dot(stress[a], [g1, g2, g3]))
+    });
+    let Blocks { hessian, flip, twist, .. } = blocks;
+    let stiffness = stage!(R, "vertex_in_frames", (U, V, hessian, flip, twist, rest) => {
+        let ([g1, g2, g3, v], blocks) = (rest, map(hessian, flip, twist));
         let w = three!(k => dot(transpose(&V)[k], [g1, g2, g3]));
         let squares = three!(k => v * (w[k] * w[k]));
         let mut B = three!(i => three!(j => if i == j { hessian[i] * squares[i] } else { R::splat(0.0) }));

@@ -137,10 +137,11 @@ impl<R: Real> Tangent<R> {
     #[inline(always)]
     #[must_use]
     pub fn to_matrix(&self) -> [[R; 9]; 9] {
-        let Self { U, V, blocks: Blocks { gradient, hessian, flip, twist } } = *self;
+        let Self { U, V, blocks: Blocks { hessian, flip, twist, .. } } = *self;
         stage!(R, "tangent_in_frames", (U, V, hessian, flip, twist) => {
             let mut dP_dF = [[R::splat(0.0); 9]; 9];
-            assemble_blocks(&U, &V, &Blocks { gradient, hessian, flip, twist }, &mut dP_dF);
+            let blocks = Blocks { gradient: [R::splat(0.0); 3], hessian, flip, twist };
+            assemble_blocks(&U, &V, &blocks, &mut dP_dF);
             dP_dF
         })
     }
