@@ -26,13 +26,15 @@ pub(crate) struct Emit {
     #[arg(long)]
     precision: Option<Precision>,
 
-    /// First part of all names [default: the name of the energy].
+    /// First part of all names; no other file of the program may add `_projected` to it
+    /// [default: the name of the energy].
     #[arg(long, value_name = "PREFIX")]
     name: Option<String>,
 
-    /// The functions, separated by commas: energy, stress, tangent, projected, absolute,
-    /// tetrahedron, projected_tetrahedron, vertex, projected_vertex, blocks, svd [default: all].
-    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
+    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', help = format!(
+        "The functions, separated by commas: {} [default: all]",
+        PointFunction::ALL.map(PointFunction::name).join(", ")
+    ))]
     functions: Vec<PointFunction>,
 
     /// Continue the energy by polynomials below this stretch.

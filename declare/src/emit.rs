@@ -15,16 +15,16 @@ mod steps;
 use std::str::FromStr;
 
 use piola::__private::record::{
-    self, Recorded, RecordedFunction, RecordedMask, Truth, define, evaluate_tetrahedron, evaluate_vertex,
-    record,
+    Recorded, RecordedFunction, RecordedMask, define, evaluate_tetrahedron, evaluate_vertex, record,
 };
 use piola::interpreter::Interpreted;
-use piola::lanes::{Mask, Real};
-use piola::material::{Form, MaterialError, Text};
+use piola::lanes::{Mask, Real, Truth};
+use piola::material::{Blocks, Form, MaterialError, Text};
 use piola::point::{Filter, evaluate_dense, evaluate_energy, evaluate_stress, svd};
 use piola::{Inversion, Material, Status};
 
 use crate::energy::Energy;
+use signature::{Signature, Signatures, contradiction};
 
 /// Languages of emitted source text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ pub enum PointFunction {
     Tetrahedron,
     /// Gradient and stiffness of a tetrahedron, from dP/dF with its negative eigenvalues clamped to zero.
     ProjectedTetrahedron,
-    /// What belongs to one node of a tetrahedron: the gradient in its position, and its block of the
+    /// The gradient of a tetrahedron's energy in the position of one node, and the node's block of the
     /// stiffness, from F and the node's row of Dm⁻¹.
     Vertex,
     /// The same, from dP/dF with its negative eigenvalues clamped to zero.
@@ -97,38 +97,35 @@ pub enum PointFunction {
 }
 
 impl PointFunction {
-    /// All functions, in the order in which they are printed.
-    pub const ALL: [Self; 11] = [
-        Self::Energy,
-        Self::Stress,
-        Self::Tangent,
-        Self::Projected,
-        Self::Absolute,
-        Self::Tetrahedron,
-        Self::ProjectedTetrahedron,
-        Self::Vertex,
-        Self::ProjectedVertex,
-        Self::Blocks,
-        Self::Svd,
+    const TABLE: [(&str, Self); 11] = [
+        ("energy", Self::Energy),
+        ("stress", Self::Stress),
+        ("tangent", Self::Tangent),
+        ("projected", Self::Projected),
+        ("absolute", Self::Absolute),
+        ("tetrahedron", Self::Tetrahedron),
+        ("projected_tetrahedron", Self::ProjectedTetrahedron),
+        ("vertex", Self::Vertex),
+        ("projected_vertex", Self::ProjectedVertex),
+        ("blocks", Self::Blocks),
+        ("svd", Self::Svd),
     ];
+
+    /// All functions, in the order in which they are printed.
+    pub const ALL: [Self; Self::TABLE.len()] = {
+        let mut all = [Self::Energy; Self::TABLE.len()];
+        let mut k = 0;
+        while k < all.len() {
+            all[k] = Self::TABLE[k].1;
+            k += 1;
+        }
+        all
+    };
 
     /// Word for the function, the last part of its name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        const NAMES: [&str; PointFunction::ALL.len()] = [
-            "energy",
-            "stress",
-            "tangent",
-            "projected",
-            "absolute",
-            "tetrahedron",
-            "projected_tetrahedron",
-            "vertex",
-            "projected_vertex",
-            "blocks",
-            "svd",
-        ];
-        NAMES[self as usize]
+        Self::TABLE[self as usize].0
     }
 }
 
@@ -136,8 +133,7 @@ impl FromStr for PointFunction {
     type Err = UnknownWord;
 
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        let all = Self::ALL.map(|function| (function.name(), function));
-        choice("function", word, &all, &Self::ALL.map(Self::name).join(", "))
+        choice("function", word, &Self::TABLE, &Self::ALL.map(Self::name).join(", "))
     }
 }
 
@@ -214,6 +210,11 @@ pub enum EmitError {
     /// A parameter selects the program, which cannot be recorded.
     #[error("a parameter of the energy decides on its program: write its value into the energy")]
     Unrecorded,
+    /// A function of the file is not the one that its description says, which is a mistake of this library.
+    #[error(
+        "the function `{0}` has no single program with its arguments and results; please report this energy"
+    )]
+    Contradiction(&'static str),
 }
 
 /// Input of a printer: an energy with its programs and parameters.
@@ -228,6 +229,7 @@ struct File<'a> {
     wanted: Vec<PointFunction>,
     /// The wanted functions, what they call, and `at_rest`.
     functions: Vec<RecordedFunction>,
+    signatures: Signatures,
 }
 
 impl Energy {
@@ -246,9 +248,8 @@ impl Energy {
         inversion: Inversion,
         emission: &Emission,
     ) -> Result<String, EmitError> {
-        let functions = self.description().parameters.iter();
-        let mut functions = functions.filter(|one| matches!(one.form, Form::Function | Form::Points));
-        if let Some(function) = functions.next() {
+        let mut parameters = self.description().parameters.iter();
+        if let Some(function) = parameters.find(|one| matches!(one.form, Form::Function | Form::Points)) {
             return Err(EmitError::Function(function.name.clone()));
         }
         let prefix = emission.prefix.clone().unwrap_or_else(|| snake_case(&self.description().name));
@@ -263,8 +264,8 @@ impl Energy {
         }
         // In `f32` a file has the numbers that are nearest, for which the conditions must hold as well.
         let is_single = emission.precision == Precision::F32;
-        let format = if is_single { record::Format::F32 } else { record::Format::F64 };
-        let nearest = |list: &&[f64]| list.iter().map(|&x| format.rounded(x)).collect();
+        let nearest = |&x: &f64| if is_single { f64::from(x as f32) } else { x };
+        let nearest = |list: &&[f64]| list.iter().map(nearest).collect();
         let rounded: Vec<Vec<f64>> = values.iter().map(nearest).collect();
         let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
         let material = self.with_marked_parameters(&self.material(&values, inversion)?);
@@ -272,22 +273,18 @@ impl Energy {
         let mut wanted = emission.functions.clone();
         wanted.sort_unstable();
         wanted.dedup();
-        let functions = record(format, || {
+        let functions = record(is_single, || {
             at_rest(&self.without_extension(&material));
             wanted.iter().for_each(|&function| define_function(function, &material));
         });
-        let functions = functions.ok_or(EmitError::Unrecorded)?;
-        let values = &values[..];
-        Ok(printer::print(&File {
-            energy: self,
-            target,
-            prefix,
-            precision,
-            values,
-            inversion,
-            wanted,
-            functions,
-        }))
+        let (functions, signatures) = (functions.ok_or(EmitError::Unrecorded)?, Signature::all());
+        if let Some(name) = contradiction(&signatures, &functions) {
+            return Err(EmitError::Contradiction(name));
+        }
+        let (energy, values) = (self, &values[..]);
+        let file =
+            File { energy, target, prefix, precision, values, inversion, wanted, functions, signatures };
+        Ok(printer::print(&file))
     }
 }
 
@@ -334,12 +331,10 @@ fn define_function(function: PointFunction, material: &Interpreted) {
         PointFunction::ProjectedVertex => vertex(Filter::Clamp),
         PointFunction::Blocks => {
             define(name, [zero; 3], |stretches| {
-                let blocks = material.blocks(stretches);
-                let numbers = [&blocks.gradient[..], &blocks.hessian, &blocks.flip, &blocks.twist].concat();
-                (
-                    (blocks.gradient, blocks.hessian, blocks.flip, blocks.twist),
-                    failed(!material.admits(stretches), !all_finite(&numbers)),
-                )
+                let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);
+                let numbers = [&gradient[..], &hessian, &flip, &twist].concat();
+                let status = failed(!material.admits(stretches), !all_finite(&numbers));
+                ((gradient, hessian, flip, twist), status)
             });
         }
         PointFunction::Svd => {

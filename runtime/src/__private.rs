@@ -49,9 +49,8 @@ pub mod random {
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod record {
     pub use crate::kernels::tetrahedron::{evaluate_tetrahedron, evaluate_vertex};
-    pub use crate::lanes::Truth;
     pub use crate::lanes::recorded::program::{
-        Binary, Format, Id, RecordedFunction, RecordedOperation, RecordedProgram, Unary,
+        Binary, Id, RecordedFunction, RecordedOperation, RecordedProgram, Unary,
     };
     pub use crate::lanes::recorded::{Recorded, RecordedMask, define, parameter, record};
 }

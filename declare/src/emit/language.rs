@@ -196,7 +196,7 @@ impl Language {
         }
     }
 
-    /// What stands before a call whose value is not used.
+    /// Text before a call whose value is not used.
     pub(super) fn unused(&self) -> &'static str {
         if self.is_c() { "" } else { "_ = " }
     }
@@ -398,7 +398,8 @@ impl Language {
         let text = if self.is_c() { PARAMETERS_IN_C } else { PARAMETERS_IN_WGSL };
         let (prefix, upper) = (&self.prefix, self.prefix.to_uppercase());
         let text = text.replace("{prefix}", prefix).replace("{upper}", &upper);
-        text.replace("{fields}", fields).replace("{example}", &example.join(", "))
+        // Fields last: a comment of a user may look like a word of the template.
+        text.replace("{example}", &example.join(", ")).replace("{fields}", fields)
     }
 
     /// Numbers of a list among those values.
@@ -417,21 +418,25 @@ impl Language {
         }
     }
 
-    /// A function that belongs to all energies: once in a program, unless another release prints another one,
-    /// which compilers then refuse.
-    pub(super) fn once(&self, name: &str, text: &str) -> String {
-        if !self.is_c() {
-            return text.to_owned();
-        }
-        let guard = format!("{}_{}_{:08X}", self.upper(), name.to_uppercase(), sum_of(text));
-        format!("#ifndef {guard}\n#define {guard}\n{}\n#endif\n", text.trim_end())
+    /// A function that belongs to all energies: once in a program.
+    pub(super) fn shared(&self, name: &str, text: &str) -> String {
+        let guard = self.name_of(name, false).to_uppercase();
+        let mistake = "print all files of a program with one release and one --target";
+        if self.is_c() { self.once(&guard, text, mistake) } else { text.to_owned() }
+    }
+
+    /// A text in C that is read once, and that refuses another one, or one of another target, with its guard.
+    fn once(&self, guard: &str, text: &str, mistake: &str) -> String {
+        let (text, sum) = (text.trim_end(), sum_of(&format!("{:?}{text}", self.target)));
+        format!(
+            "#ifndef {guard}\n#define {guard} {sum:#x}\n{text}\n#elif {guard} != {sum:#x}\n#error \"{mistake}\"\n#endif\n"
+        )
     }
 
     /// The contents below the comment. In C with guards against a second reading, against another file of
     /// that name, and against arithmetic that is not that of IEEE 754.
     pub(super) fn guarded(&self, shared: String, own: String) -> String {
         let (upper, all) = (self.prefix.to_uppercase(), self.upper());
-        let sum = sum_of(&own);
         // CUDA's compiler at run time defines no `__GNUC__`, but has its attributes.
         let (has_attributes, device) = match self.target {
             Target::Wgsl => return shared + &own,
@@ -440,9 +445,7 @@ impl Language {
         };
         let inlined = if self.target == Target::C { "unused, always_inline" } else { "unused" };
         let words = [
-            ("{upper}", &upper[..]),
-            ("{all}", &all),
-            ("{sum}", &format!("{sum:#x}")),
+            ("{all}", &all[..]),
             ("{head}", &self.head_of_file()),
             ("{has_attributes}", has_attributes),
             ("{device}", &device),
@@ -450,7 +453,9 @@ impl Language {
             ("{shared}", &shared),
             ("{own}", &own),
         ];
-        words.iter().fold(FILE.to_owned(), |text, (word, meaning)| text.replace(word, meaning))
+        let text = words.iter().fold(FILE.to_owned(), |text, (word, meaning)| text.replace(word, meaning));
+        let mistake = "two files have the prefix of this one: give one of them another name";
+        self.once(&format!("{upper}_H"), &text, mistake)
     }
 }
 

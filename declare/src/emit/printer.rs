@@ -28,12 +28,12 @@ pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
     let [mut shared, mut own] = [String::new(), String::new()];
     for (name, program) in printer.needed() {
-        let signature = printer.signature(name);
+        let signature = &file.signatures[name];
         let text = printer.function(signature, program);
         match signature.is_of_energy {
             true if signature.name == "at_rest" => own = text + &printer.check() + &own,
             true => own += &text,
-            false => shared += &printer.language.once(signature.name, &text),
+            false => shared += &printer.language.shared(signature.name, &text),
         }
     }
     let text = printer.parameters() + &own;
@@ -51,7 +51,6 @@ struct Printer<'a> {
     fields: Vec<String>,
     /// Text of each number among the parameters; whole exponents have no place.
     parameters: Vec<String>,
-    signatures: Vec<Signature>,
 }
 
 impl<'a> Printer<'a> {
@@ -66,14 +65,7 @@ impl<'a> Printer<'a> {
                 parameters.push(language.parameter(name, is_list.then_some(k)));
             }
         }
-        Self { file, language, fields, parameters, signatures: Signature::all() }
-    }
-
-    /// What is written about a function.
-    fn signature(&self, name: &str) -> &Signature {
-        let found = self.signatures.iter().find(|one| one.name == name);
-        debug_assert!(found.is_some(), "functions.txt has no `{name}`");
-        found.unwrap_or(&self.signatures[0])
+        Self { file, language, fields, parameters }
     }
 
     /// The functions that are requested, and those that they call, in an order in which they can be compiled.
@@ -144,28 +136,21 @@ impl<'a> Printer<'a> {
         language.structure(&fields, &example)
     }
 
-    /// True for a stage that is inlined, so that arrays between stages are in registers: neither one that
-    /// many functions call and that is long, nor one that writes whole matrices.
-    fn is_inlined(&self, name: &str) -> bool {
-        let signature = self.signature(name);
-        let is_short = |(own, program): &RecordedFunction| *own == name && program.operations.len() <= SHORT;
-        signature.returned != Returned::Status
-            && signature.inputs.iter().any(|input| input.length.is_some())
-            && signature.size() < 81
-            && !signature.name.starts_with("decomposition")
-            && (!signature.is_of_energy || self.file.functions.iter().any(is_short))
+    /// True for a stage that is inlined, if it belongs to the energy only if it is short.
+    fn is_inlined(&self, signature: &Signature) -> bool {
+        let is_long = |one: &RecordedFunction| one.0 == signature.name && one.1.operations.len() > SHORT;
+        signature.is_inline && !(signature.is_of_energy && self.file.functions.iter().any(is_long))
     }
 
     fn function(&self, signature: &Signature, program: &RecordedProgram) -> String {
         let language = &self.language;
         let comment = signature.comment.replace('\n', "\n * ");
-        let mut text =
-            format!("/* {comment} */\n{}\n", language.head(signature, self.is_inlined(signature.name)));
+        let mut text = format!("/* {comment} */\n{}\n", language.head(signature, self.is_inlined(signature)));
         let mut body = Body::new(self, program, signature);
         let statements = body.statements();
         let reads_parameters = |operation: &RecordedOperation| match operation {
             RecordedOperation::Parameter(_) => true,
-            RecordedOperation::Call(name, _) => self.signature(name).is_of_energy,
+            RecordedOperation::Call(name, _) => self.file.signatures[name].is_of_energy,
             _ => false,
         };
         if signature.is_of_energy && !program.operations.iter().any(reads_parameters) {

@@ -206,7 +206,7 @@ pub trait Numbers<R: Real>: Sized {
     fn map(self, to: &mut impl Replace<R>) -> Self;
 }
 
-/// What a number and a truth value are replaced with.
+/// Replaces numbers and truth values.
 pub trait Replace<R: Real> {
     /// In place of a number.
     fn number(&mut self, number: R) -> R;

@@ -18,12 +18,13 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use super::elementary::{self, Logarithm};
 use super::primitive::Primitive;
 use super::real::{Mask, Numbers, Real, Replace};
-use program::{Binary, Format, Id, RecordedFunction, RecordedOperation, Unary};
+use program::{Binary, Id, RecordedFunction, RecordedOperation, Unary};
 use tape::Tape;
 
 #[derive(Default)]
 struct Recorder {
-    format: Format,
+    /// True if the programs have numbers of 32 bits, false if they have 64.
+    is_single: bool,
     /// The programs that are being recorded, each called by the one before.
     tapes: Vec<Tape>,
     /// Programs that are complete, after those that they call.
@@ -52,20 +53,26 @@ pub fn parameter(k: u32) -> f64 {
 const PARAMETERS: u64 = 0x7ff4_9101_0000_0000;
 const QUIET: u64 = 0x7ffc_9101_0000_0000;
 
-/// Records functions in a format, each after those that it calls; `None` if a [`parameter`] was used as a
-/// plain number, so that the record is not a program of the parameter.
+/// Records functions in `f32` or `f64`, each after those that it calls, twice if its name has two programs;
+/// `None` if a [`parameter`] was used as a plain number, so that the record is not a program of it.
 #[must_use]
-pub fn record(format: Format, definitions: impl FnOnce()) -> Option<Vec<RecordedFunction>> {
+pub fn record(is_single: bool, definitions: impl FnOnce()) -> Option<Vec<RecordedFunction>> {
     let tapes = vec![Tape::default()];
-    let before = RECORDER.replace(Recorder { format, tapes, ..Recorder::default() });
+    let recorder = Recorder { is_single, tapes, ..Recorder::default() };
+    let before = RECORDER.replace(recorder);
     definitions();
     let Recorder { functions, has_lost_parameter, .. } = RECORDER.replace(before);
     (!has_lost_parameter).then_some(functions)
 }
 
+/// The value for `f32` or for `f64`, that of the program that is being recorded.
+fn of_format(single: f64, double: f64) -> f64 {
+    if RECORDER.with_borrow(|recorder| recorder.is_single) { single } else { double }
+}
+
 /// Records a function from its inputs to its results, and calls it.
 ///
-/// Each call records it again: a name stands for one program.
+/// A call runs the body again because the shape of its results is needed.
 pub fn define<I: Numbers<Recorded>, O: Numbers<Recorded>>(
     name: &'static str,
     inputs: I,
@@ -90,10 +97,9 @@ pub fn define<I: Numbers<Recorded>, O: Numbers<Recorded>>(
     let known = RECORDER.with_borrow_mut(|recorder| {
         let tape = recorder.tapes.pop().unwrap_or_default();
         let truths: Vec<_> = results.iter().map(|&id| tape.truth(id)).collect();
-        let program = tape.into_program(results);
-        match recorder.functions.iter().find(|one| one.0 == name) {
-            Some(one) => debug_assert_eq!(one.1, program, "the stages `{name}` differ"),
-            None => recorder.functions.push((name, program)),
+        let function = (name, tape.into_program(results));
+        if !recorder.functions.contains(&function) {
+            recorder.functions.push(function);
         }
         truths
     });
@@ -125,17 +131,10 @@ impl Numbers<Recorded> for Logarithm<Recorded> {
     }
 }
 
-impl Format {
-    /// The format of the program that is being recorded.
-    fn current() -> Self {
-        RECORDER.with_borrow(|recorder| recorder.format)
-    }
-}
-
 impl Recorded {
     fn of(operation: RecordedOperation) -> Self {
         let id = RECORDER.with_borrow_mut(|recorder| match recorder.tapes.last_mut() {
-            Some(tape) => tape.simplified(recorder.format, operation),
+            Some(tape) => tape.simplified(recorder.is_single, operation),
             None => 0,
         });
         Self(id)
@@ -236,11 +235,11 @@ impl Real for Recorded {
     const MIN_POSITIVE: f64 = f64::NAN;
 
     fn unit_roundoff() -> f64 {
-        Format::current().unit_roundoff()
+        of_format(f32::UNIT_ROUNDOFF, f64::UNIT_ROUNDOFF)
     }
 
     fn min_positive() -> f64 {
-        Format::current().min_positive()
+        of_format(f32::MIN_POSITIVE.into(), f64::MIN_POSITIVE)
     }
 
     fn splat(value: f64) -> Self {
@@ -253,7 +252,7 @@ impl Real for Recorded {
             }
             _ => {}
         }
-        Self::of(RecordedOperation::Literal(Format::current().rounded(value).to_bits()))
+        Self::of(RecordedOperation::Literal(of_format((value as f32).into(), value).to_bits()))
     }
 
     fn from_fn(value: impl Fn(usize) -> f64) -> Self {

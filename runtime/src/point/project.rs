@@ -95,7 +95,7 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
     (Blocks { gradient, hessian, flip, twist }, is_filtered)
 }
 
-/// Hessian, flips and twists after a filter of this slope, and whether it has changed any.
+/// Hessian, flips and twists after a filter of this slope, and true if one was negative beyond roundings.
 #[inline(always)]
 fn all_filtered<R: Real>(
     hessian: [R; 6],

@@ -49,6 +49,7 @@ fn main() -> ExitCode {
     }
     trials.extend([
         further(constructors::compiled_ones_refuse_what_is_inadmissible),
+        further(emission::files_of_a_program_have_one_target_and_one_namespace),
         further(invariants::below_the_threshold_invariants_do_not_hold),
         further(powers::a_series_has_the_digits_of_its_terms),
         further(powers::a_constant_term_counts_as_written),

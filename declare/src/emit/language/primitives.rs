@@ -23,7 +23,7 @@ fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> Vec<(&str, String)> {
 }
 
 impl Language {
-    /// What the comment at the top of a file says of all energies.
+    /// The part of the comment at the top of a file that is the same for all energies.
     pub(in crate::emit) fn comment(&self) -> String {
         let target = format!("{:?}", self.target);
         let parts = parts(COMMENT, |part| part == "all" || part == "end" || part == target);
@@ -31,7 +31,7 @@ impl Language {
         text.replace("{prefix}", &self.prefix).replace("{example}", &self.example())
     }
 
-    /// What comes before the macros and functions of C: headers, and errors for options that change
+    /// Text before the macros and functions of C: headers, and errors for options that change
     /// arithmetic.
     pub(super) fn head_of_file(&self) -> String {
         let (of_target, of_double) = match self.target {
@@ -67,7 +67,7 @@ impl Language {
         let once = |(function, text): (&str, String)| match function {
             // Macros may be defined again.
             "all" => self.filled(&text),
-            function => self.once(function, &self.filled(&text)),
+            function => self.shared(function, &self.filled(&text)),
         };
         parts.into_iter().map(once).collect()
     }

@@ -17,7 +17,7 @@ use crate::emit::steps::{Step, Steps, guarded};
 /// Characters of an expression that is written where it is used.
 const LONGEST: usize = 90;
 
-/// The user of what a function returns.
+/// The user of a number that a function returns.
 const RETURNED: Id = Id::MAX;
 
 /// The text of a number, and whether it needs parentheses within an expression.
@@ -29,7 +29,7 @@ pub(super) struct Body<'a> {
     program: &'a RecordedProgram,
     signature: &'a Signature,
     steps: Steps,
-    /// How often each number is written, as a result apart.
+    /// Number of times that each number is written, except as a result.
     uses: Vec<u32>,
     /// An operation that uses each number.
     user: Vec<Id>,
@@ -115,7 +115,7 @@ impl<'a> Body<'a> {
     /// The function that an operation calls.
     fn callee(&self, call: Id) -> &'a Signature {
         match self.operation(call) {
-            RecordedOperation::Call(name, _) => self.printer.signature(name),
+            RecordedOperation::Call(name, _) => &self.printer.file.signatures[name],
             _ => self.signature,
         }
     }
@@ -355,7 +355,7 @@ impl<'a> Body<'a> {
         length <= LONGEST && !(is_product(id) && is_sum(user)) && !is_negation
     }
 
-    /// Writes what stands before a call; returns the call, unless it returns nothing.
+    /// Writes the statements before a call; returns the call, unless it returns nothing.
     fn call(&mut self, id: Id, arguments: &[Id], margin: &str, text: &mut String) -> Option<String> {
         let (language, callee) = (self.language(), self.callee(id));
         let mut list = Vec::new();
@@ -403,7 +403,7 @@ impl<'a> Body<'a> {
         if let Some(output) = self.output_of_call(ids) {
             let name = &self.arrays[&output];
             // An array whose place a function in a branch needs would be in memory before the branch, too.
-            let is_copied = margin.len() > 4 && !self.printer.is_inlined(self.callee(id).name);
+            let is_copied = margin.len() > 4 && !self.printer.is_inlined(self.callee(id));
             if self.is_output(name) || !is_copied || !self.steps.needed[output.0 as usize].is_empty() {
                 return self.language().passed(name, self.is_output(name));
             }

@@ -60,7 +60,7 @@ impl Printer<'_> {
             statements += before;
             statements += &language.return_unless(condition, k + 1);
         }
-        let head = language.head(self.signature("check"), false);
+        let head = language.head(&file.signatures["check"], false);
         format!("{list} */\n{head}\n{statements}    return 0u;\n}}\n\n")
     }
 

@@ -2,8 +2,6 @@
 
 use std::collections::HashSet;
 
-use crate::lanes::real::Real;
-
 /// The place of an operation in its program.
 pub type Id = u32;
 
@@ -111,58 +109,5 @@ impl RecordedOperation {
             each(id);
             id
         });
-    }
-}
-
-/// Formats of the numbers of a program.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Format {
-    /// 32 bits.
-    F32,
-    /// 64 bits.
-    #[default]
-    F64,
-}
-
-impl Format {
-    pub(super) fn unit_roundoff(self) -> f64 {
-        match self {
-            Self::F32 => <f32 as Real>::UNIT_ROUNDOFF,
-            Self::F64 => <f64 as Real>::UNIT_ROUNDOFF,
-        }
-    }
-
-    pub(super) fn min_positive(self) -> f64 {
-        match self {
-            Self::F32 => <f32 as Real>::MIN_POSITIVE,
-            Self::F64 => <f64 as Real>::MIN_POSITIVE,
-        }
-    }
-
-    /// The nearest number of the format.
-    #[must_use]
-    pub fn rounded(self, value: f64) -> f64 {
-        match self {
-            Self::F32 => f64::from(value as f32),
-            Self::F64 => value,
-        }
-    }
-
-    /// The result of an operation on literals, if it is one of arithmetic.
-    pub(super) fn compute(self, operator: Binary, a: f64, b: f64) -> Option<f64> {
-        fn result<R: Real>(operator: Binary, a: f64, b: f64) -> Option<R> {
-            let (a, b) = (R::splat(a), R::splat(b));
-            match operator {
-                Binary::Add => Some(a + b),
-                Binary::Subtract => Some(a - b),
-                Binary::Multiply => Some(a * b),
-                Binary::Divide => Some(a / b),
-                Binary::CopySign => None,
-            }
-        }
-        match self {
-            Self::F32 => result::<f32>(operator, a, b).map(f64::from),
-            Self::F64 => result::<f64>(operator, a, b),
-        }
     }
 }

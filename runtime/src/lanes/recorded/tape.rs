@@ -2,7 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::program::{Format, Id, RecordedOperation, RecordedProgram};
+use super::program::{Binary, Id, RecordedOperation, RecordedProgram};
+use crate::lanes::real::Real;
 
 /// Operations under construction.
 #[derive(Default)]
@@ -59,14 +60,15 @@ impl Tape {
     }
 
     /// The operation, or a simpler one with the same bits.
-    pub(super) fn simplified(&mut self, format: Format, operation: RecordedOperation) -> Id {
+    pub(super) fn simplified(&mut self, is_single: bool, operation: RecordedOperation) -> Id {
         use super::program::Binary::{Divide, Multiply};
         use super::program::Unary::Negate;
         use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
         let computed = match operation {
             Unary(Negate, a) => self.literal(a).map(|a| -a),
             Binary(operator, a, b) => match (self.literal(a), self.literal(b)) {
-                (Some(a), Some(b)) => format.compute(operator, a, b),
+                (Some(a), Some(b)) if is_single => arithmetic::<f32>(operator, a, b).map(f64::from),
+                (Some(a), Some(b)) => arithmetic::<f64>(operator, a, b),
                 // Exact for any other operand.
                 (_, Some(1.0)) if matches!(operator, Multiply | Divide) => return a,
                 (Some(1.0), _) if operator == Multiply => return b,
@@ -98,14 +100,14 @@ impl Tape {
             }
             Select(mask, yes, no) if self.selected(mask, [yes, no]) != [yes, no] => {
                 let [yes, no] = self.selected(mask, [yes, no]);
-                return self.simplified(format, Select(mask, yes, no));
+                return self.simplified(is_single, Select(mask, yes, no));
             }
             Select(_, yes, no) if yes == no => return yes,
             Select(mask, yes, no) => match self.operations[mask as usize] {
                 Truth(truth) => return if truth { yes } else { no },
                 Not(mask) => return self.push(Select(mask, no, yes)),
                 Select(guard, never, inner) if self.truth(never) == Some(false) => {
-                    let selected = self.simplified(format, Select(inner, yes, no));
+                    let selected = self.simplified(is_single, Select(inner, yes, no));
                     return self.push(Select(guard, no, selected));
                 }
                 _ => None,
@@ -138,5 +140,17 @@ impl Tape {
             results: results.into_iter().map(moved).collect(),
             guards: self.guards.into_iter().filter(|&id| is_needed[id as usize]).map(moved).collect(),
         }
+    }
+}
+
+/// The result of an operation on literals, if it is one of arithmetic.
+fn arithmetic<R: Real>(operator: Binary, a: f64, b: f64) -> Option<R> {
+    let (a, b) = (R::splat(a), R::splat(b));
+    match operator {
+        Binary::Add => Some(a + b),
+        Binary::Subtract => Some(a - b),
+        Binary::Multiply => Some(a * b),
+        Binary::Divide => Some(a / b),
+        Binary::CopySign => None,
     }
 }
