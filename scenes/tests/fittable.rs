@@ -233,68 +233,19 @@ fn ordinates_of_the_curves_of_the_catalogue_are_parameters() -> Result<(), Mater
 
 /// Sums in products, in logarithms, in each other's terms and in exponents; lists of two lengths; names of
 /// what is emitted.
-const NESTED: &str = "
-#[material(domain(J > 0.0), admissible(mu[k] > 0.0), prestressed)]
-pub fn Nested<const N: usize, const M: usize>(
-    [l1, l2, l3]: [f64; 3],
-    /// Shares, Pa.
-    mu: [f64; N],
-    /// Exponents.
-    alpha: [f64; N],
-    /// Coefficients.
-    derivatives: [f64; M],
-    /// A stress, Pa.
-    p: f64,
-) -> f64 {
-    let total = sum(|k| mu[k]);
-    let powers = sum(|k| mu[k] / total * (l1.powf(alpha[k]) + l2.powf(alpha[k]) + l3.powf(alpha[k])));
-    let series = sum(|k| derivatives[k] * (derivatives[k] * powers).exp());
-    total * series.ln() + p * powers * sum(|k| alpha[k] * mu[k]).ln() + p * I1.powf(sum(|k| derivatives[k]))
-}";
+const NESTED: &str = include_str!("fittable/nested.txt");
 
 /// Powers of what differs from entry to entry, in a list of fixed length.
-const SHIFTED: &str = "
-#[material(prestressed)]
-pub fn Shifted(
-    [l1, l2, l3]: [f64; 3],
-    /// Moduli, Pa.
-    mu: [f64; 2],
-    /// Stiffening.
-    b: [f64; 2],
-    /// Exponent.
-    n: f64,
-) -> f64 {
-    sum(|k| mu[k] * (1.0 + b[k] * I1).powf(n * b[k]))
-}";
+const SHIFTED: &str = include_str!("fittable/shifted.txt");
 
 /// A real power, whose logarithm vanishes at rest.
-const STIFFENING: &str = "
-#[material(domain(J > 0.0), admissible(n > 2.0))]
-pub fn Stiffening(
-    [l1, l2, l3]: [f64; 3],
-    /// Shear modulus, Pa.
-    mu: f64,
-    /// Modulus of the power, Pa.
-    c: f64,
-    /// Its exponent.
-    n: f64,
-) -> f64 {
-    mu / 2.0 * (I1b - 3.0) + c * (1.0 + (I1b - 3.0)).powf(n) + mu * (J - 1.0).powi(2)
-}";
+const STIFFENING: &str = include_str!("fittable/stiffening.txt");
 
 /// A curve, which also bounds the domain, and powers with whole exponents.
-const DRAWN: &str = "
-#[material(domain(J > 0.0, f(I1b / 3.0) < 20.0 * mu), admissible(mu < 1e6, k[p] < 1e6))]
-pub fn Drawn([l1, l2, l3]: [f64; 3], mu: f64, f: Spline, k: Vec<f64>, n: Vec<u32>) -> f64 {
-    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + f(I1b / 3.0) + sum(|p| k[p] * (I1b - 3.0).powi(n[p]))
-}";
+const DRAWN: &str = include_str!("fittable/drawn.txt");
 
 /// Springs, of which as many stiffnesses as wanted stand in the arguments of a curve.
-const SPRUNG: &str = "
-#[material(domain(J > 0.0))]
-pub fn Sprung<const N: usize>([l1, l2, l3]: [f64; 3], a: f64, b: [f64; N], k: f64, f: Spline) -> f64 {
-    f(a * l1) + f(a * l2) + f(a * l3) + sum(|p| f(b[p] * l1) + f(b[p] * l2) + f(b[p] * l3)) - k * J.ln()
-}";
+const SPRUNG: &str = include_str!("fittable/sprung.txt");
 
 /// The candidate of a declaration.
 fn declared(text: &str, values: &[&[f64]]) -> Candidate {

@@ -8,22 +8,7 @@ use piola_laboratory::fit::{
 use super::{Outcome, candidate, catalogue, of_numbers, told, treloar};
 
 /// Rubber after Mansouri and Darijani 2014, made compressible.
-const EXPONENTIALS: &str = "
-#[material(domain(J > 0.0))]
-fn Exponentials(
-    [l1, l2, l3]: [f64; 3],
-    A: f64,
-    m: f64,
-    alpha: f64,
-    B: f64,
-    n: f64,
-    beta: f64,
-    kappa: f64,
-) -> f64 {
-    let tension = A * ((m * (l1.powf(alpha) + l2.powf(alpha) + l3.powf(alpha) - 3.0)).exp() - 1.0);
-    let compression = B * ((n * (l1.powf(-beta) + l2.powf(-beta) + l3.powf(-beta) - 3.0)).exp() - 1.0);
-    tension + compression - (A * m * alpha - B * n * beta) * J.ln() + kappa / 2.0 * (J - 1.0).powi(2)
-}";
+const EXPONENTIALS: &str = include_str!("exponentials.txt");
 
 /// To Treloar's data.
 fn fitted(start: &Candidate, settings: &FitSettings) -> Result<Fit, FitError> {
