@@ -319,7 +319,7 @@ pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs
             derivatives: within(model, &[&by.gradient[..], &by.hessian].concat(), &by.bounds)?,
             bounds: program(model, &by.bounds)?,
             has_second_invariant: !model.graph.is_zero(by.gradient[1]),
-            curvature: match by.curvature(&model.graph, model.volume) {
+            curvature: match by.curvature(&model.graph) {
                 invariants::Curvature::First => Curvature::First,
                 invariants::Curvature::Volume => Curvature::Volume,
                 invariants::Curvature::Separate => Curvature::Separate,

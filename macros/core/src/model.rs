@@ -248,7 +248,9 @@ fn derive(
         .map(|(energy, bounds, has_energy)| {
             let energy = over_one_denominator(&mut graph, energy, &prepared.ways.by_invariants());
             let (gradient, hessian) = derivatives(&mut graph, energy);
-            ByInvariants { energy: with_limits(&mut graph, energy), has_energy, gradient, hessian, bounds }
+            let has_domain = volume != Volume::Any || !bounds.is_empty();
+            let energy = with_limits(&mut graph, energy);
+            ByInvariants { energy, has_energy, gradient, hessian, bounds, has_domain }
         });
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
     let units = judge::units_of_parameters(&graph, source);

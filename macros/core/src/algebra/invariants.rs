@@ -12,7 +12,6 @@
 //! where [`power_sums`](super::power_sums) sees it.
 
 use crate::algebra::expr::{Graph, Id};
-use crate::read::domain::Volume;
 
 /// An energy in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
 #[derive(Clone, Debug)]
@@ -27,6 +26,8 @@ pub struct ByInvariants {
     pub hessian: [Id; 6],
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
+    /// True if there is a domain, be it of J alone.
+    pub has_domain: bool,
 }
 
 /// Second derivatives by invariants that do not vanish everywhere, of which the runtime compiles terms.
@@ -43,14 +44,13 @@ pub enum Curvature {
 }
 
 impl ByInvariants {
-    /// The second derivatives that do not vanish everywhere, of an energy with this domain.
+    /// The second derivatives that do not vanish everywhere.
     #[must_use]
-    pub fn curvature(&self, graph: &Graph, volume: Volume) -> Curvature {
+    pub fn curvature(&self, graph: &Graph) -> Curvature {
         let [w11, w22, _, w12, w1j, w2j] = self.hessian.map(|derivative| !graph.is_zero(derivative));
         let [_, has_second, has_volume] = self.gradient.map(|derivative| !graph.is_zero(derivative));
-        let is_conditional = volume != Volume::Any || !self.bounds.is_empty();
         match (w11, w22 || w12 || w1j || w2j) {
-            (_, false) if has_second && !has_volume && !is_conditional => Curvature::First,
+            (_, false) if has_second && !has_volume && !self.has_domain => Curvature::First,
             (false, false) => Curvature::Volume,
             (true, false) => Curvature::Separate,
             (_, true) => Curvature::All,

@@ -43,7 +43,7 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     let admits = domain(declaration, model, &named, &invariants.bounds, of_functions, j, &continued);
     let admits = of_invariants("admits_invariants", quote!(R::Mask), admits);
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
-    let curvature = invariants.curvature(&model.graph, model.volume);
+    let curvature = invariants.curvature(&model.graph);
     let curvature = format_ident!("{curvature:?}");
     let properties = [
         inlined(quote!(fn has_invariants(&self) -> bool), quote!(true)),
