@@ -169,7 +169,11 @@ impl<R: Real> Evaluate for &Matrix3<R> {
             let needed = Needed::for_derivatives(has_second, curvature);
             let (invariants, is_in_range) = invariants(F, needed);
             let gradient = material.gradient_by_invariants(invariants);
-            by_invariants = stress_by_invariants(F, gradient, needed);
+            by_invariants = match needed {
+                Needed::First => stress_by_invariants::<R, true, false>(F, gradient),
+                Needed::WithoutSecond => stress_by_invariants::<R, false, true>(F, gradient),
+                Needed::All => stress_by_invariants::<R, true, true>(F, gradient),
+            };
             served = is_in_range & material.admits_invariants(invariants) & gradient_is_in_range(gradient);
             if !(!served).any() {
                 return StressPoint { stress: by_invariants, status: Status::clean() };

@@ -54,29 +54,6 @@ impl Needed {
     }
 }
 
-/// Runs a block for what is needed as a constant, so that a loop in it is compiled for each.
-#[cfg(feature = "batch")]
-macro_rules! with_needed {
-    ($value:expr, |$needed:ident| $body:block) => {
-        match $value {
-            Needed::First => {
-                let $needed = Needed::First;
-                $body
-            }
-            Needed::WithoutSecond => {
-                let $needed = Needed::WithoutSecond;
-                $body
-            }
-            Needed::All => {
-                let $needed = Needed::All;
-                $body
-            }
-        }
-    };
-}
-#[cfg(feature = "batch")]
-pub(crate) use with_needed;
-
 /// Invariants I1, I2, J, with a mask of whether they and the results computed from them stay in range. Those
 /// that are not needed are zero.
 #[inline(always)]
@@ -138,23 +115,21 @@ fn square<R: Real>(A: &Matrix3<R>) -> R {
 
 /// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 counts as zero.
 #[inline(always)]
-pub(crate) fn stress_by_invariants<R: Real>(F: &Matrix3<R>, W: [R; 3], needed: Needed) -> Matrix3<R> {
+pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_VOLUME: bool>(
+    F: &Matrix3<R>,
+    W: [R; 3],
+) -> Matrix3<R> {
     let F = *F;
-    let name = match needed {
-        Needed::All => "stress_by_invariants",
-        Needed::WithoutSecond => "stress_by_invariants_without_I2",
-        Needed::First => "stress_by_invariants_without_J",
+    let name = match (HAS_SECOND, HAS_VOLUME) {
+        (true, true) => "stress_by_invariants",
+        (false, _) => "stress_by_invariants_without_I2",
+        (true, false) => "stress_by_invariants_without_J",
     };
     stage!(R, name, (F, W) => {
-        let C = if needed == Needed::First { F } else { cofactor(&F) };
-        let D = if needed == Needed::WithoutSecond { C } else { second_derivative(&F) };
+        let C = if HAS_VOLUME { cofactor(&F) } else { F };
+        let D = if HAS_SECOND { second_derivative(&F) } else { C };
         let [W1, W2, WJ] = W;
-        let along = [W1 + W1, W2 + W2, WJ];
-        match needed {
-            Needed::All => stress_of_terms::<R, true, true>([&F, &D, &C], along),
-            Needed::WithoutSecond => stress_of_terms::<R, false, true>([&F, &D, &C], along),
-            Needed::First => stress_of_terms::<R, true, false>([&F, &D, &C], along),
-        }
+        stress_of_terms::<R, HAS_SECOND, HAS_VOLUME>([&F, &D, &C], [W1 + W1, W2 + W2, WJ])
     })
 }
 
