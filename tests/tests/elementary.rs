@@ -85,7 +85,7 @@ impl Function {
     }
 
     /// What `Real` promises, in units in the last place.
-    fn bound<E: Format>(self) -> f64 {
+    fn bound(self) -> f64 {
         match self {
             Sqrt => 0.5,
             ReciprocalSqrt => 2.0,
@@ -292,7 +292,7 @@ fn judge<E: Scalar + Format>() {
                     y = y.widen(),
                 );
                 println!("{line}");
-                if worst > function.bound::<E>() {
+                if worst > function.bound() {
                     failures.push(line);
                 }
             }
