@@ -451,7 +451,7 @@ const fn third(i: usize, j: usize) -> usize {
 
 /// N by the largest entry on the diagonal of dP/dF, up to which the latter has its digits.
 ///
-/// Terms that cancel change with F as much as they are large: at 6000 random F of each energy of the catalogue
-/// that has invariants, the error in `f32` beside `f64` was at most 9.2 u (‖dP/dF‖ + sens) up to a ratio of
-/// 64, and 7.1 beyond it.
+/// Terms that cancel change with F as much as they are large: at 6000 random F of each energy of the
+/// catalogue that has invariants, the error in `f32` beside `f64` was at most 9.2 u (‖dP/dF‖ + sens) up to a
+/// ratio of 64, and 7.1 beyond it.
 const MAX_CANCELLATION: f64 = 64.0;
