@@ -201,7 +201,8 @@ pub trait Material: Send + Sync {
 /// [`Material::curvature_by_invariants`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curvature {
-    /// W11: f(I1) + d I2, without J and without a condition on I2 or J. P and dP/dF need I1 alone.
+    /// W11: f(I1) + d I2, without J and without a condition on I2 or J. Derivatives and domain are then
+    /// computed from I1 alone: their arguments for I2 and J are zero.
     First,
     /// WJJ: c I1 + d I2 + g(J).
     Volume,
@@ -229,6 +230,7 @@ impl Curvature {
     #[inline(always)]
     pub(crate) fn terms(self, has_second: bool) -> [bool; 3] {
         match self {
+            // Without I2 like `Separate`: it has no kernel of its own.
             Self::First => [has_second, !has_second, !has_second],
             Self::Volume => [has_second, false, true],
             Self::Separate => [has_second, !has_second, true],

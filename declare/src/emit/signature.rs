@@ -8,8 +8,8 @@ use piola::__private::record::{RecordedFunction, RecordedOperation};
 /// value, `status` the four of a status. A function of `p`, the parameters, belongs to the energy, the others
 /// to all. Functions whose comment is elsewhere have none here.
 ///
-/// Stages that are `inline` have arrays in registers: neither stages that many functions call and that are
-/// long, nor stages that write whole matrices.
+/// Stages marked `inline` are inlined, so that the arrays between them stay in registers. Long stages that
+/// many functions call are not, and neither are stages that write whole matrices.
 const FUNCTIONS: &str = include_str!("functions.txt");
 
 /// Arguments and results of a function, and the comment above it.

@@ -10,7 +10,8 @@
 //! P   = 2 W1 F + 2 W2 D + WJ C,                                             W1 = ∂W/∂I1, …
 //! ```
 //!
-//! D is I1 F − F Fᵀ F, but without a difference of cubes.
+//! D is F (I1 I − FᵀF), with sums of two squares on the diagonal of the bracket. Its error is a few u I1 |F|,
+//! and ∂D/∂F has the entry λ1² + λ3² ≥ I1/3 in the principal frames.
 //!
 //! What floating point does here. I1 and I2 are sums of squares, and J is a sum of three entries times minors
 //! that are within 2u of themselves, so that each is as good as F determines it: within a few u of its
@@ -127,7 +128,7 @@ pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_VO
     };
     stage!(R, name, (F, W) => {
         let C = if HAS_VOLUME { cofactor(&F) } else { F };
-        let D = if HAS_SECOND { second_derivative(&F) } else { C };
+        let D = if HAS_SECOND { half_derivative_of_I2(&F) } else { C };
         let [W1, W2, WJ] = W;
         stress_of_terms::<R, HAS_SECOND, HAS_VOLUME>([&F, &D, &C], [W1 + W1, W2 + W2, WJ])
     })
@@ -163,9 +164,9 @@ fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     }))
 }
 
-/// D = F (I1 I − FᵀF). The bracket has sums of two squares on its diagonal, so that nothing cancels there.
+/// D = F (I1 I − FᵀF), half of dI2/dF.
 #[inline(always)]
-fn second_derivative<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
+fn half_derivative_of_I2<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
     let metric = |x: usize, y: usize| dot([F[0][x], F[1][x], F[2][x]], [F[0][y], F[1][y], F[2][y]]);
     let squares = three!(x => metric(x, x));
     let mixed = three!(x => metric((x + 1) % 3, (x + 2) % 3));

@@ -48,7 +48,7 @@ use super::super::Matrix3;
 use super::super::matrix::multiply_transposed;
 use super::super::matrix::{dot, symmetric, three};
 use super::super::tangent::Assemble;
-use super::{cofactor, second_derivative, square, stress_of_terms};
+use super::{cofactor, half_derivative_of_I2, square, stress_of_terms};
 use crate::lanes::Real;
 
 /// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
@@ -228,7 +228,7 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: boo
         let (two, four) = (R::splat(2.0), R::splat(4.0));
         let (p1, p2) = (two * W1, two * W2);
         let C = cofactor(F);
-        let D = if HAS_SECOND { second_derivative(F) } else { C };
+        let D = if HAS_SECOND { half_derivative_of_I2(F) } else { C };
         let [I1, I2, J] = invariants;
         let invariants = [I1, if HAS_SECOND { I2 } else { square(&C) }, J];
         let (a11, a12, a22, a1J, a2J) = (four * W11, four * W12, four * W22, two * W1J, two * W2J);
