@@ -103,11 +103,17 @@ macro_rules! register {
                 from: &[$Number],
                 to: &mut [$Number],
             ) {
+                const LINE: usize = <$Number as Scalar>::LINE;
+                // Registers that are lines have as many points: by constants the loops are unrolled.
+                let (rows, columns) = match ($lanes, FROM, TO) {
+                    (LINE, _, LINE) => (LINE, FROM),
+                    (LINE, LINE, _) => (TO, LINE),
+                    _ => (rows, columns),
+                };
                 // There is a square, and all before the end of the last row, so every entry, is in its slice.
                 assert!(rows >= $lanes && columns >= $lanes);
                 assert!((rows - 1).saturating_mul(FROM).saturating_add(columns) <= from.len());
                 assert!((columns - 1).saturating_mul(TO).saturating_add(rows) <= to.len());
-                const LINE: usize = <$Number as Scalar>::LINE;
                 let (length, from, to) = (to.len(), from.as_ptr(), to.as_mut_ptr());
                 let in_squares = |count: usize| match count % $lanes {
                     narrow if narrow <= $lanes / 8 => count - narrow,
@@ -303,6 +309,8 @@ macro_rules! register_512 {
             $($operations)*
             bits |mask| u64::from(mask.0),
             real {
+                const HAS_MANY_REGISTERS: bool = true;
+
                 #[inline(always)]
                 fn select(mask: LaneBits<$lanes>, yes: Self, no: Self) -> Self {
                     // SAFETY: the processor has this instruction, or there would be no value of this type.
