@@ -224,17 +224,17 @@ impl Curvature {
         }
     }
 
-    /// The terms of dP/dF that are computed: true if those with derivatives by I2 are, with all second
-    /// derivatives, and with derivatives by J. Without all, an energy with I2 has W11 and WJJ, one without it
-    /// WJJ alone.
+    /// The terms of dP/dF that are computed: true if those with derivatives by I2 are, with W11, with
+    /// derivatives by J, and with other second derivatives.
     #[inline(always)]
-    pub(crate) fn terms(self, has_second: bool) -> [bool; 3] {
+    pub(crate) fn terms(self, has_second: bool) -> [bool; 4] {
         match self {
+            // With I2 like `Separate`, as its derivative joins W11.
+            Self::Volume => [has_second, has_second, true, false],
+            Self::Separate => [has_second, true, true, false],
+            Self::All => [has_second, true, true, true],
             // Without I2 like `Separate`: it has no kernel of its own.
-            Self::First => [has_second, !has_second, !has_second],
-            Self::Volume => [has_second, false, true],
-            Self::Separate => [has_second, !has_second, true],
-            Self::All => [has_second, true, true],
+            Self::First => [has_second, true, !has_second, false],
         }
     }
 
@@ -243,13 +243,13 @@ impl Curvature {
     #[cfg(feature = "batch")]
     #[inline(always)]
     pub(crate) fn leaves_out(self, k: usize, has_second: bool) -> bool {
-        let [_, has_all, has_volume] = self.terms(has_second);
+        let [_, has_first, has_volume, has_mixed] = self.terms(has_second);
         match k {
             1 => !has_second,
             2 | 5 => !has_volume,
-            3 => !has_second && !has_all,
-            7 => !has_all,
-            4 | 6 | 8 => !has_second || !has_all,
+            3 => !has_first,
+            7 => !has_mixed,
+            4 | 6 | 8 => !has_second || !has_mixed,
             _ => false,
         }
     }

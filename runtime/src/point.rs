@@ -18,7 +18,7 @@
 #![expect(non_snake_case, reason = "F, P, U, V as in the literature")]
 
 use crate::lanes::{Mask, Real, Truth, stage};
-use crate::material::{Blocks, Response};
+use crate::material::{Blocks, Response, ResponseKind};
 use crate::quotient::pole_floor;
 use crate::status::Status;
 
@@ -43,7 +43,7 @@ mod twice;
 pub use deformation::Deformation;
 use deformation::Evaluate;
 pub use dense::{DensePoint, evaluate_dense};
-use invariants::{Needed, gradient_is_in_range, invariants, stress_by_invariants};
+use invariants::{invariants_for, stress_by_invariants};
 #[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
 use matrix::three;
@@ -143,8 +143,7 @@ impl<R: Real> Evaluate for &Matrix3<R> {
         let F = self;
         let (mut served, mut by_invariants) = (R::Mask::splat(false), R::splat(0.0));
         if material.has_energy_by_invariants() {
-            let (invariants, is_in_range) =
-                invariants(F, Needed::for_energy(material.has_second_invariant()));
+            let (invariants, is_in_range) = invariants_for(ResponseKind::EnergyByInvariants, material, F);
             by_invariants = material.energy_by_invariants(invariants);
             served = is_in_range & material.admits_invariants(invariants) & by_invariants.is_finite();
             if !(!served).any() {
@@ -164,17 +163,7 @@ impl<R: Real> Evaluate for &Matrix3<R> {
         let F = self;
         let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
         if material.has_invariants() {
-            let (has_second, curvature) =
-                (material.has_second_invariant(), material.curvature_by_invariants());
-            let needed = Needed::for_derivatives(has_second, curvature);
-            let (invariants, is_in_range) = invariants(F, needed);
-            let gradient = material.gradient_by_invariants(invariants);
-            by_invariants = match needed {
-                Needed::First => stress_by_invariants::<R, true, false>(F, gradient),
-                Needed::WithoutSecond => stress_by_invariants::<R, false, true>(F, gradient),
-                Needed::All => stress_by_invariants::<R, true, true>(F, gradient),
-            };
-            served = is_in_range & material.admits_invariants(invariants) & gradient_is_in_range(gradient);
+            (served, by_invariants) = stress_by_invariants(material, F);
             if !(!served).any() {
                 return StressPoint { stress: by_invariants, status: Status::clean() };
             }

@@ -16,6 +16,7 @@ use crate::kernels::svd_tile::SvdTile;
 use crate::kernels::tangents::{FilterBlocks, Tangents, TangentsByInvariants};
 use crate::kernels::workspace::{Scratch, Workspace};
 use crate::lanes::Backend;
+use crate::material::ResponseKind;
 use crate::point::Filter;
 use crate::point::invariants::Needed;
 use crate::status::Status;
@@ -79,8 +80,9 @@ impl<E: Kernels> Tile<'_, E> {
     /// Energies.
     #[inline(always)] // a call per tile is 1 % of a cheap kernel
     pub(super) fn energies(&mut self, energies: &mut [E]) -> Status<u64> {
-        let Properties { has_energy_by_invariants, has_second_invariant, .. } = self.call.properties;
-        let needed = Needed::for_energy(has_second_invariant);
+        let Properties { has_energy_by_invariants, has_second_invariant, curvature, .. } =
+            self.call.properties;
+        let needed = Needed::of(ResponseKind::EnergyByInvariants, has_second_invariant, curvature);
         let in_range = if has_energy_by_invariants { self.invariants(needed) } else { 0 };
         let served = self.energies_by_invariants(in_range, energies);
         if served == first_bits(self.count) {
@@ -143,7 +145,7 @@ impl<E: Kernels> Tile<'_, E> {
             call.properties;
         let needed = match energies {
             None => self.needed_for_derivatives(),
-            Some(_) => Needed::for_energy(has_second_invariant),
+            Some(_) => Needed::of(ResponseKind::EnergyByInvariants, has_second_invariant, curvature),
         };
         let mut served = if energies.is_none() || has_energy_by_invariants {
             self.derivatives_by_invariants(needed)
@@ -222,7 +224,7 @@ impl<E: Kernels> Tile<'_, E> {
     /// Invariants that P and dP/dF depend on.
     fn needed_for_derivatives(&self) -> Needed {
         let Properties { has_second_invariant, curvature, .. } = self.call.properties;
-        Needed::for_derivatives(has_second_invariant, curvature)
+        Needed::of(ResponseKind::DerivativesByInvariants, has_second_invariant, curvature)
     }
 
     /// Computes the invariants if the energy depends on them alone. Returns the points in range: none for any

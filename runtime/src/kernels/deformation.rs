@@ -6,7 +6,7 @@ use super::rows::{Rows, first_bits, for_each_group};
 use super::sink::{Lines, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Kernel, Lanes, Mask, Scalar};
-use crate::point::invariants::{Needed, invariants};
+use crate::point::invariants::{Needed, invariants, with_needed};
 use crate::point::matrix::{to_matrix, to_row_major};
 use crate::point::multiply;
 use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_by_determinant};
@@ -82,27 +82,13 @@ impl<E: Scalar> Kernel<E> for Invariants<'_, E> {
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         let Self { F, count, needed, invariants: to } = self;
         let mut in_range = 0;
-        // A loop for each, with what it needs as a constant.
-        macro_rules! compute {
-            ($needed:path) => {
-                for_each_group!(R, count, |at| {
-                    let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), $needed);
-                    to.set_all(at, numbers);
-                    in_range |= R::bits(is_in_range) << at;
-                });
-            };
-        }
-        match needed {
-            Needed::First => {
-                compute!(Needed::First);
-            }
-            Needed::WithoutSecond => {
-                compute!(Needed::WithoutSecond);
-            }
-            Needed::All => {
-                compute!(Needed::All);
-            }
-        }
+        with_needed!(needed, needed => {
+            for_each_group!(R, count, |at| {
+                let (numbers, is_in_range) = invariants(&to_matrix(F.get_all::<R>(at)), needed);
+                to.set_all(at, numbers);
+                in_range |= R::bits(is_in_range) << at;
+            });
+        });
         in_range & first_bits(count)
     }
 }

@@ -7,7 +7,7 @@ use std::marker::PhantomData;
 use super::sink::{LineBuffer, Sink, Source};
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
-use crate::point::invariants::tangent::{Entries, RowsOf, Terms};
+use crate::point::invariants::tangent::{Entries, Form, RowsOf, Terms};
 use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks, multiply};
 use crate::status::Status;
@@ -129,19 +129,13 @@ pub(crate) trait Output<S: Site, const N: usize> {
 
     fn put_all<R: Real>(tangent: &Tangent<R>, rest: &S::Rest<R>, to: &mut (impl Components<R> + ?Sized));
 
-    /// Returns the largest entry on the diagonal of the tangent.
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>,
+    /// Returns the lanes for which the tangent is as accurate as by a decomposition, and nothing can overflow
+    /// on the way from it to the form.
+    fn put_all_by_invariants<R: Real, T: Form>(
+        terms: &Terms<R, T>,
         rest: &S::Rest<R>,
         to: &mut (impl Components<R> + ?Sized),
-    ) -> R;
-
-    /// True if nothing can overflow on the way from the tangent, given a bound of its entries, to the form.
-    #[inline(always)]
-    fn stays_finite<R: Real>(tangent: R, rest: &S::Rest<R>) -> R::Mask {
-        let _ = (tangent, rest);
-        R::Mask::splat(true)
-    }
+    ) -> R::Mask;
 }
 
 /// Place of the components of an output.
@@ -186,11 +180,11 @@ impl Output<Points, 81> for FullTangent {
     }
 
     #[inline(always)]
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>,
+    fn put_all_by_invariants<R: Real, T: Form>(
+        terms: &Terms<R, T>,
         (): &(),
         to: &mut (impl Components<R> + ?Sized),
-    ) -> R {
+    ) -> R::Mask {
         terms.assemble(&Entries, &mut TangentPlace(to))
     }
 }
@@ -343,18 +337,17 @@ impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
     }
 
     #[inline(always)]
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>,
+    fn put_all_by_invariants<R: Real, T: Form>(
+        terms: &Terms<R, T>,
         rest: &[R; 10],
         to: &mut (impl Components<R> + ?Sized),
-    ) -> R {
-        let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
-        terms.assemble(&coordinates, &mut StiffnessPlace::<F, _, N>(PhantomData, to))
-    }
-
-    #[inline(always)]
-    fn stays_finite<R: Real>(tangent: R, rest: &[R; 10]) -> R::Mask {
-        Rest::new(*rest).keeps_finite(tangent)
+    ) -> R::Mask {
+        // Before the entries, which need all registers.
+        let bound = terms.bound();
+        let rest = Rest::new(*rest);
+        let coordinates = RowsOf::new(rest.scaled_gradients());
+        let keeps_digits = terms.assemble(&coordinates, &mut StiffnessPlace::<F, _, N>(PhantomData, to));
+        keeps_digits & rest.keeps_finite(bound)
     }
 }
 

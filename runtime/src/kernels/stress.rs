@@ -7,7 +7,7 @@ use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
-use crate::point::invariants::{Needed, gradient_is_in_range, stress_by_invariants};
+use crate::point::invariants::{Needed, gradient_is_in_range, stress_of_gradient, with_needed};
 use crate::point::matrix::{three, to_matrix};
 use crate::point::{stress, stress_is_finite};
 use crate::status::Status;
@@ -70,50 +70,33 @@ pub(crate) struct StressByInvariants<'a, E> {
 /// Runs the kernel for the outputs. Returns the points whose result is finite.
 pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, stress: StressByInvariants<'_, E>) -> u64 {
     match stress.outputs {
-        Outputs::Points => with_needed::<_, Points>(backend, stress, ()),
+        Outputs::Points => backend.run(ByInvariantsAt::<_, Points>(stress, ())),
         Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes) => {
-            with_needed::<_, Elements>(backend, stress, shapes)
+            backend.run(ByInvariantsAt::<_, Elements>(stress, shapes))
         }
     }
 }
 
-/// Runs the kernel with the terms that do not vanish.
-fn with_needed<'a, E: Scalar, S: Site>(
-    backend: Backend,
-    stress: StressByInvariants<'a, E>,
-    shapes: S::Shapes<'a, E>,
-) -> u64 {
-    match stress.needed {
-        Needed::First => backend.run(ByInvariantsAt::<_, S, true, false>(stress, shapes)),
-        Needed::WithoutSecond => backend.run(ByInvariantsAt::<_, S, false, true>(stress, shapes)),
-        Needed::All => backend.run(ByInvariantsAt::<_, S, true, true>(stress, shapes)),
-    }
-}
-
 /// Kernel of [`StressByInvariants`], with the shapes at rest.
-struct ByInvariantsAt<'a, E: Scalar, S: Site, const HAS_SECOND: bool, const HAS_VOLUME: bool>(
-    StressByInvariants<'a, E>,
-    S::Shapes<'a, E>,
-);
+struct ByInvariantsAt<'a, E: Scalar, S: Site>(StressByInvariants<'a, E>, S::Shapes<'a, E>);
 
-impl<E: Scalar, S: Site, const HAS_SECOND: bool, const HAS_VOLUME: bool> Kernel<E>
-    for ByInvariantsAt<'_, E, S, HAS_SECOND, HAS_VOLUME>
-{
+impl<E: Scalar, S: Site> Kernel<E> for ByInvariantsAt<'_, E, S> {
     type Output = u64;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let Self(StressByInvariants { F, gradients, count, line, mut to, .. }, shapes) = self;
+        let Self(StressByInvariants { F, gradients, needed, count, line, mut to, .. }, shapes) = self;
         let mut finite = 0;
-        for_each_group!(R, count, |at| {
-            let F = to_matrix(F.get_all::<R>(at));
-            let gradient = gradients.get_all(at);
-            let stress = stress_by_invariants::<R, HAS_SECOND, HAS_VOLUME>(&F, gradient);
-            let rest = S::rest(&shapes, at);
-            let is_finite = gradient_is_in_range(gradient) & S::stays_finite(&stress, &rest);
-            finite |= R::bits(is_finite) << at;
-            S::put(&stress, &rest, &mut to, line, at);
-            S::finish::<R>(&mut to, line, at, count);
+        with_needed!(needed, needed => {
+            for_each_group!(R, count, |at| {
+                let gradient = gradients.get_all(at);
+                let stress = stress_of_gradient(&to_matrix(F.get_all::<R>(at)), gradient, needed);
+                let rest = S::rest(&shapes, at);
+                let is_finite = gradient_is_in_range(gradient) & S::stays_finite(&stress, &rest);
+                finite |= R::bits(is_finite) << at;
+                S::put(&stress, &rest, &mut to, line, at);
+                S::finish::<R>(&mut to, line, at, count);
+            });
         });
         finite & first_bits(count)
     }

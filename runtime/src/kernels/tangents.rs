@@ -2,13 +2,15 @@
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
+use std::marker::PhantomData;
+
 use super::form::{BlockStiffness, Elements, FullStiffness, FullTangent, Output, Outputs, Points, Site};
 use super::rows::{Rows, first_bits, for_each_group, from_rows, to_rows};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Curvature;
-use crate::point::invariants::tangent::Terms;
+use crate::point::invariants::tangent::{Form, Terms, with_form};
 use crate::point::matrix::to_matrix;
 use crate::point::{Filter, Svd, Tangent, judge};
 use crate::status::Status;
@@ -126,75 +128,57 @@ pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, tangents: TangentsB
     }
 }
 
-/// Runs a kernel with the terms that do not vanish.
+/// Runs the kernel for the terms that do not vanish.
 ///
-/// Each of the five kernels pays: with those of all terms instead, tangents of Saint Venant–Kirchhoff take
-/// 14 % more instructions, and those of energies in I1 and J 27 %.
-fn with_terms<'a, E, S, F, const N: usize>(
+/// Each of the forms pays: with all terms instead, tangents of Saint Venant–Kirchhoff take 14 % more
+/// instructions, and those of energies in I1 and J 27 %.
+fn with_terms<'a, E, S, M, const N: usize>(
     backend: Backend,
     tangents: TangentsByInvariants<'a, E>,
     shapes: S::Shapes<'a, E>,
-    form: F,
+    output: M,
 ) -> u64
-where
-    E: Scalar,
-    S: Site,
-    F: Output<S, N>,
-{
-    let has_second = tangents.has_second_invariant;
-    match tangents.curvature.terms(has_second) {
-        [true, true, _] => backend.run(ByInvariants::<_, S, _, true, true, true, N>(tangents, shapes, form)),
-        [true, false, true] => {
-            backend.run(ByInvariants::<_, S, _, true, false, true, N>(tangents, shapes, form))
-        }
-        [true, false, false] => {
-            backend.run(ByInvariants::<_, S, _, true, false, false, N>(tangents, shapes, form))
-        }
-        [false, true, _] => {
-            backend.run(ByInvariants::<_, S, _, false, true, true, N>(tangents, shapes, form))
-        }
-        [false, false, _] => {
-            backend.run(ByInvariants::<_, S, _, false, false, true, N>(tangents, shapes, form))
-        }
-    }
-}
-
-/// Kernel of [`TangentsByInvariants`], with the shapes at rest and a form of the second output.
-struct ByInvariants<
-    'a,
-    E: Scalar,
-    S: Site,
-    M,
-    const HAS_SECOND: bool,
-    const HAS_ALL: bool,
-    const HAS_VOLUME: bool,
-    const N: usize,
->(TangentsByInvariants<'a, E>, S::Shapes<'a, E>, M);
-
-impl<E, S, M, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool, const N: usize> Kernel<E>
-    for ByInvariants<'_, E, S, M, HAS_SECOND, HAS_ALL, HAS_VOLUME, N>
 where
     E: Scalar,
     S: Site,
     M: Output<S, N>,
 {
+    let terms = tangents.curvature.terms(tangents.has_second_invariant);
+    with_form!(terms, Form => {
+        backend.run(ByInvariants::<_, S, _, Form, N>(tangents, shapes, output, PhantomData))
+    })
+}
+
+/// Kernel of [`TangentsByInvariants`], with the shapes at rest and a form of the second output.
+struct ByInvariants<'a, E: Scalar, S: Site, M, T, const N: usize>(
+    TangentsByInvariants<'a, E>,
+    S::Shapes<'a, E>,
+    M,
+    PhantomData<T>,
+);
+
+impl<E, S, M, T, const N: usize> Kernel<E> for ByInvariants<'_, E, S, M, T, N>
+where
+    E: Scalar,
+    S: Site,
+    M: Output<S, N>,
+    T: Form,
+{
     type Output = u64;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let Self(tangents, shapes, _) = self;
+        let Self(tangents, shapes, ..) = self;
         let TangentsByInvariants { F, invariants, derivatives, count, line, short_line, .. } = tangents;
         let (mut first, mut second) = (tangents.first, tangents.second);
         let mut served = 0;
         for_each_group!(R, count, |at| {
             let (F, invariants) = (to_matrix(F.get_all::<R>(at)), invariants.get_all(at));
-            let terms =
-                Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives.get_all(at));
+            let terms = Terms::<R, T>::new(&F, invariants, &derivatives.get_all(at));
             let rest = S::rest(&shapes, at);
             // The larger output first: what P needs of the registers stays in few.
-            let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
+            let keeps_digits = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
             let stress = terms.stress();
-            let keeps_digits = terms.keeps_digits(largest) & M::stays_finite(terms.bound(), &rest);
             S::put(&stress, &rest, &mut first, short_line, at);
             let stays_finite = S::stays_finite(&stress, &rest);
             served |= R::bits(keeps_digits & stays_finite) << at;

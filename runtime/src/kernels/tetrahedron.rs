@@ -5,9 +5,9 @@
 
 use super::form::{FullStiffness, Output, cap_twist, gradient_is_finite, put_gradient};
 use crate::lanes::{Mask, Real, Truth, stage};
-use crate::material::{Blocks, PAIRS, Response};
-use crate::point::invariants::tangent::Terms;
-use crate::point::invariants::{Needed, invariants};
+use crate::material::{Blocks, PAIRS, Response, ResponseKind};
+use crate::point::invariants::invariants_for;
+use crate::point::invariants::tangent::{Form, Terms, with_form};
 use crate::point::matrix::{dot, symmetric, three, transpose};
 use crate::point::{Filter, Matrix3, Point, Tangent, entries_are_finite, evaluate, multiply};
 use crate::status::Status;
@@ -37,14 +37,8 @@ pub fn evaluate_tetrahedron<R: Real>(
     if filter != Filter::None || !material.has_invariants() {
         return by_decomposition(material, &F, &rest, filter);
     }
-    let has_second = material.has_second_invariant();
-    let (served, by_invariants) = match material.curvature_by_invariants().terms(has_second) {
-        [true, true, _] => by_invariants::<R, true, true, true>(material, &F, &rest),
-        [true, false, true] => by_invariants::<R, true, false, true>(material, &F, &rest),
-        [true, false, false] => by_invariants::<R, true, false, false>(material, &F, &rest),
-        [false, true, _] => by_invariants::<R, false, true, true>(material, &F, &rest),
-        [false, false, _] => by_invariants::<R, false, false, true>(material, &F, &rest),
-    };
+    let terms = material.curvature_by_invariants().terms(material.has_second_invariant());
+    let (served, by_invariants) = with_form!(terms, Form => by_invariants::<R, Form>(material, &F, &rest));
     if !(!served).any() {
         return by_invariants;
     }
@@ -104,23 +98,20 @@ fn map<R: Real>(hessian: [R; 6], flip: [R; 3], twist: [R; 3]) -> Blocks<R> {
 }
 
 /// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
-fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
+fn by_invariants<R: Real, T: Form>(
     material: &impl Response<R>,
     F: &Matrix3<R>,
     rest: &[R; 10],
 ) -> (R::Mask, DenseTetrahedron<R>) {
-    let curvature = material.curvature_by_invariants();
-    let (invariants, is_in_range) = invariants(F, Needed::for_derivatives(HAS_SECOND, curvature));
+    let (invariants, is_in_range) = invariants_for(ResponseKind::DerivativesByInvariants, material, F);
     let derivatives = material.derivatives_by_invariants(invariants);
-    let (name, F, rest) = (Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::STIFFNESS, *F, *rest);
+    let (name, F, rest) = (T::STIFFNESS, *F, *rest);
     let (gradient, stiffness, Truth(is_good)) = stage!(R, name, (F, invariants, derivatives, rest) => {
-        let terms = Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives);
+        let terms = Terms::<R, T>::new(&F, invariants, &derivatives);
         let (mut gradient, mut stiffness) = ([R::splat(0.0); 12], [R::splat(0.0); 144]);
-        let largest = FullStiffness::put_all_by_invariants(&terms, &rest, &mut stiffness);
+        let keeps_digits = FullStiffness::put_all_by_invariants(&terms, &rest, &mut stiffness);
         put_gradient(&terms.stress(), &rest, &mut gradient);
-        let stays_finite = FullStiffness::stays_finite(terms.bound(), &rest)
-            & gradient_is_finite(&terms.stress(), &rest);
-        (gradient, stiffness, Truth(terms.keeps_digits(largest) & stays_finite))
+        (gradient, stiffness, Truth(keeps_digits & gradient_is_finite(&terms.stress(), &rest)))
     });
     let served = is_in_range & material.admits_invariants(invariants) & is_good;
     (served, (gradient, stiffness, Status::clean()))

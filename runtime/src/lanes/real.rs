@@ -32,6 +32,10 @@ pub trait Real:
     /// The smallest positive normal number.
     const MIN_POSITIVE: f64;
 
+    /// True if 32 registers hold such numbers, and not 16 or fewer.
+    #[doc(hidden)] // for the order of operations
+    const HAS_MANY_REGISTERS: bool = false;
+
     /// True for the number that records what is computed with it.
     #[doc(hidden)]
     const IS_RECORDED: bool = false;

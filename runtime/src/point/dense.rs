@@ -2,11 +2,11 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::invariants::tangent::{Entries, Terms};
-use super::invariants::{Needed, invariants};
+use super::invariants::invariants_for;
+use super::invariants::tangent::{Entries, Form, Terms, with_form};
 use super::{Filter, Matrix3, evaluate};
 use crate::lanes::{Mask, Real, Truth, stage};
-use crate::material::Response;
+use crate::material::{Response, ResponseKind};
 use crate::status::Status;
 
 /// Stress and tangent at a point, both by their entries.
@@ -39,14 +39,8 @@ pub fn evaluate_dense<R: Real>(
     if filter != Filter::None || !material.has_invariants() {
         return by_decomposition(material, F, filter);
     }
-    let has_second = material.has_second_invariant();
-    let (served, mut dense) = match material.curvature_by_invariants().terms(has_second) {
-        [true, true, _] => by_invariants::<R, true, true, true>(material, F),
-        [true, false, true] => by_invariants::<R, true, false, true>(material, F),
-        [true, false, false] => by_invariants::<R, true, false, false>(material, F),
-        [false, true, _] => by_invariants::<R, false, true, true>(material, F),
-        [false, false, _] => by_invariants::<R, false, false, true>(material, F),
-    };
+    let terms = material.curvature_by_invariants().terms(material.has_second_invariant());
+    let (served, mut dense) = with_form!(terms, Form => by_invariants::<R, Form>(material, F));
     if (!served).any() {
         let other = by_decomposition(material, F, filter);
         for row in 0..9 {
@@ -74,19 +68,18 @@ fn by_decomposition<R: Real>(
 
 /// Point by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
 #[inline(always)]
-fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
+fn by_invariants<R: Real, T: Form>(
     material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
 ) -> (R::Mask, DensePoint<R>) {
-    let curvature = material.curvature_by_invariants();
-    let (invariants, is_in_range) = invariants(F, Needed::for_derivatives(HAS_SECOND, curvature));
+    let (invariants, is_in_range) = invariants_for(ResponseKind::DerivativesByInvariants, material, F);
     let derivatives = material.derivatives_by_invariants(invariants);
-    let (F, name) = (*F, Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::TANGENT);
+    let (F, name) = (*F, T::TANGENT);
     let (stress, tangent, Truth(keeps_digits)) = stage!(R, name, (F, invariants, derivatives) => {
-        let terms = Terms::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>::new(&F, invariants, &derivatives);
+        let terms = Terms::<R, T>::new(&F, invariants, &derivatives);
         let mut tangent = [[R::splat(0.0); 9]; 9];
-        let largest = terms.assemble(&Entries, &mut tangent);
-        (terms.stress(), tangent, Truth(terms.keeps_digits(largest)))
+        let keeps_digits = terms.assemble(&Entries, &mut tangent);
+        (terms.stress(), tangent, Truth(keeps_digits))
     });
     let served = is_in_range & material.admits_invariants(invariants) & keeps_digits;
     (served, DensePoint { stress, tangent, status: Status::clean() })

@@ -11,7 +11,8 @@
 //! ```
 //!
 //! D is F (I1 I − FᵀF), with sums of two squares on the diagonal of the bracket. Its error is a few u I1 |F|,
-//! and ∂D/∂F has the entry λ1² + λ3² ≥ I1/3 in the principal frames.
+//! and ∂D/∂F has the entry λ1² + λ3² ≥ I1/3 in the principal frames. P takes both its first terms at once, as
+//! F (2 W1 I + 2 W2 (I1 I − FᵀF)).
 //!
 //! What floating point does here. I1 and I2 are sums of squares, and J is a sum of three entries times minors
 //! that are within 2u of themselves, so that each is as good as F determines it: within a few u of its
@@ -26,7 +27,7 @@
 use super::Matrix3;
 use super::matrix::{dot, three};
 use crate::lanes::{Real, Truth, stage};
-use crate::material::Curvature;
+use crate::material::{Curvature, Response, ResponseKind};
 
 pub(crate) mod tangent;
 
@@ -42,18 +43,37 @@ pub(crate) enum Needed {
 }
 
 impl Needed {
-    /// Invariants that ψ depends on.
+    /// Invariants that a response by invariants depends on.
     #[inline(always)]
-    pub(crate) fn for_energy(has_second: bool) -> Self {
-        if has_second { Self::All } else { Self::WithoutSecond }
-    }
-
-    /// Invariants that the derivatives of ψ depend on.
-    #[inline(always)]
-    pub(crate) fn for_derivatives(has_second: bool, curvature: Curvature) -> Self {
-        if has_second && curvature == Curvature::First { Self::First } else { Self::for_energy(has_second) }
+    pub(crate) fn of(response: ResponseKind, has_second: bool, curvature: Curvature) -> Self {
+        match (has_second, curvature) {
+            (false, _) => Self::WithoutSecond,
+            (true, Curvature::First) if response != ResponseKind::EnergyByInvariants => Self::First,
+            (true, _) => Self::All,
+        }
     }
 }
+
+/// Evaluates an expression with `$name` as a constant: with a variable, loops of two kernels take 12 % more
+/// instructions.
+#[cfg(feature = "batch")]
+macro_rules! with_needed {
+    ($needed:expr, $name:ident => $value:expr) => {{
+        macro_rules! value {
+            ($constant:ident) => {{
+                let $name = Needed::$constant;
+                $value
+            }};
+        }
+        match $needed {
+            Needed::First => value!(First),
+            Needed::WithoutSecond => value!(WithoutSecond),
+            Needed::All => value!(All),
+        }
+    }};
+}
+#[cfg(feature = "batch")]
+pub(crate) use with_needed;
 
 /// Invariants I1, I2, J, with a mask of whether they and the results computed from them stay in range. Those
 /// that are not needed are zero.
@@ -114,23 +134,43 @@ fn square<R: Real>(A: &Matrix3<R>) -> R {
     dot(A[0], A[0]) + dot(A[1], A[1]) + dot(A[2], A[2])
 }
 
-/// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 counts as zero.
+/// The invariants that a response of a material depends on, as [`invariants`] returns them.
 #[inline(always)]
-pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_VOLUME: bool>(
+pub(crate) fn invariants_for<R: Real>(
+    response: ResponseKind,
+    material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
-    W: [R; 3],
-) -> Matrix3<R> {
+) -> ([R; 3], R::Mask) {
+    let (has_second, curvature) = (material.has_second_invariant(), material.curvature_by_invariants());
+    invariants(F, Needed::of(response, has_second, curvature))
+}
+
+/// P, Pa, of an energy of the invariants, with a mask of the lanes for which it is valid.
+#[inline(always)]
+pub(crate) fn stress_by_invariants<R: Real>(
+    material: &(impl Response<R> + ?Sized),
+    F: &Matrix3<R>,
+) -> (R::Mask, Matrix3<R>) {
+    let (has_second, curvature) = (material.has_second_invariant(), material.curvature_by_invariants());
+    let needed = Needed::of(ResponseKind::GradientByInvariants, has_second, curvature);
+    let (invariants, is_in_range) = invariants(F, needed);
+    let gradient = material.gradient_by_invariants(invariants);
+    let is_valid = is_in_range & material.admits_invariants(invariants) & gradient_is_in_range(gradient);
+    (is_valid, stress_of_gradient(F, gradient, needed))
+}
+
+/// P = 2 W1 F + 2 W2 D + WJ C, Pa; without derivatives that are not needed.
+#[inline(always)]
+pub(crate) fn stress_of_gradient<R: Real>(F: &Matrix3<R>, W: [R; 3], needed: Needed) -> Matrix3<R> {
     let F = *F;
-    let name = match (HAS_SECOND, HAS_VOLUME) {
-        (true, true) => "stress_by_invariants",
-        (false, _) => "stress_by_invariants_without_I2",
-        (true, false) => "stress_by_invariants_without_J",
+    let (name, has_second, has_volume) = match needed {
+        Needed::First => ("stress_by_invariants_without_J", true, false),
+        Needed::WithoutSecond => ("stress_by_invariants_without_I2", false, true),
+        Needed::All => ("stress_by_invariants", true, true),
     };
     stage!(R, name, (F, W) => {
-        let C = if HAS_VOLUME { cofactor(&F) } else { F };
-        let D = if HAS_SECOND { half_derivative_of_I2(&F) } else { C };
         let [W1, W2, WJ] = W;
-        stress_of_terms::<R, HAS_SECOND, HAS_VOLUME>([&F, &D, &C], [W1 + W1, W2 + W2, WJ])
+        stress_of_terms(&F, [W1 + W1, W2 + W2, WJ], has_second, has_volume)
     })
 }
 
@@ -142,37 +182,60 @@ pub(crate) fn gradient_is_in_range<R: Real>([W1, W2, WJ]: [R; 3]) -> R::Mask {
     (W1.abs() + W2.abs() + WJ.abs()).less(R::splat(R::min_positive().powf(-0.5)))
 }
 
-/// The sum of F, D and C times a factor each.
+/// F (p1 I + p2 (I1 I − FᵀF)) + `along_C` C, without the terms with p2 or C as said.
 #[inline(always)]
-fn stress_of_terms<R: Real, const HAS_SECOND: bool, const HAS_VOLUME: bool>(
-    [F, D, C]: [&Matrix3<R>; 3],
-    [along_F, along_D, along_C]: [R; 3],
+fn stress_of_terms<R: Real>(
+    F: &Matrix3<R>,
+    [p1, p2, along_C]: [R; 3],
+    has_second: bool,
+    has_volume: bool,
 ) -> Matrix3<R> {
-    three!(i => three!(j => match (HAS_SECOND, HAS_VOLUME) {
-        (true, true) => along_D.mul_add(D[i][j], along_F.mul_add(F[i][j], along_C * C[i][j])),
-        (true, false) => along_D.mul_add(D[i][j], along_F * F[i][j]),
-        (false, _) => along_F.mul_add(F[i][j], along_C * C[i][j]),
+    let C = if has_volume { cofactor(F) } else { *F };
+    if !has_second {
+        return three!(i => three!(j => p1.mul_add(F[i][j], along_C * C[i][j])));
+    }
+    let (squares, mixed) = metric(F);
+    let on_diagonal = three!(x => p2.mul_add(squares[(x + 1) % 3] + squares[(x + 2) % 3], p1));
+    let mixed = three!(x => p2 * mixed[x]);
+    three!(i => three!(x => {
+        let P = along_axis(&F[i], x, on_diagonal[x], mixed);
+        if has_volume { along_C.mul_add(C[i][x], P) } else { P }
     }))
 }
 
 /// Cofactors of F: the matrix of signed minors, J F⁻ᵀ where that exists.
 #[inline(always)]
 fn cofactor<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
-    three!(i => three!(j => {
+    three!(i => cofactor_row(F, i))
+}
+
+/// Row i of the cofactors of F.
+#[inline(always)]
+fn cofactor_row<R: Real>(F: &Matrix3<R>, i: usize) -> [R; 3] {
+    three!(j => {
         let (k, l, m, n) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
         F[k][m].mul_add(F[l][n], -(F[k][n] * F[l][m]))
-    }))
+    })
 }
 
 /// D = F (I1 I − FᵀF), half of dI2/dF.
 #[inline(always)]
 fn half_derivative_of_I2<R: Real>(F: &Matrix3<R>) -> Matrix3<R> {
+    let (squares, mixed) = metric(F);
+    three!(i => three!(x => along_axis(&F[i], x, squares[(x + 1) % 3] + squares[(x + 2) % 3], mixed)))
+}
+
+/// Entries of FᵀF: those on the diagonal, and the others, each at the axis that it does not belong to.
+#[inline(always)]
+fn metric<R: Real>(F: &Matrix3<R>) -> ([R; 3], [R; 3]) {
     let metric = |x: usize, y: usize| dot([F[0][x], F[1][x], F[2][x]], [F[0][y], F[1][y], F[2][y]]);
-    let squares = three!(x => metric(x, x));
-    let mixed = three!(x => metric((x + 1) % 3, (x + 2) % 3));
-    three!(i => three!(x => {
-        let (y, z) = ((x + 1) % 3, (x + 2) % 3);
-        // Not fused, so that axes with equal entries have equal ones in it.
-        F[i][x] * (squares[y] + squares[z]) - (F[i][y] * mixed[z] + F[i][z] * mixed[y])
-    }))
+    (three!(x => metric(x, x)), three!(x => metric((x + 1) % 3, (x + 2) % 3)))
+}
+
+/// Entry x of a row times the matrix with an entry on its diagonal, and minus `mixed` beside it.
+#[inline(always)]
+fn along_axis<R: Real>(row: &[R; 3], x: usize, on_diagonal: R, mixed: [R; 3]) -> R {
+    let (y, z) = ((x + 1) % 3, (x + 2) % 3);
+    // Not fused with each other, so that axes with equal entries have equal ones in the product.
+    row[x].mul_add(on_diagonal, -(row[y] * mixed[z] + row[z] * mixed[y]))
 }

@@ -43,21 +43,86 @@
 
 #![expect(non_snake_case, reason = "F, C, D, P, T, I1, I2, J, W as in the text above")]
 
+use std::marker::PhantomData;
+
 use super::super::Matrix3;
-#[cfg(feature = "batch")]
-use super::super::matrix::multiply_transposed;
-use super::super::matrix::{dot, symmetric, three};
+use super::super::matrix::{column, dot, symmetric, three};
 use super::super::tangent::Assemble;
-use super::{cofactor, half_derivative_of_I2, square, stress_of_terms};
+use super::{cofactor, cofactor_row, half_derivative_of_I2, square, stress_of_terms};
 use crate::lanes::Real;
 
-/// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
-/// without `HAS_SECOND`, `HAS_ALL` or `HAS_VOLUME` as in [`Terms`].
+/// Terms that dP/dF has: [`Curvature::terms`](crate::material::Curvature::terms). The few forms are each
+/// compiled for every output.
+pub(crate) trait Form {
+    /// True if it has terms with derivatives by I2.
+    const SECOND: bool;
+    /// True if it has those with W11.
+    const FIRST: bool;
+    /// True if it has those with WJ and WJJ. Without them I1 is the only invariant.
+    const VOLUME: bool;
+    /// True if it has those with other second derivatives.
+    const MIXED: bool;
+    /// Name of the stage from derivatives to P and dP/dF.
+    const TANGENT: &'static str;
+    /// Name of the stage from derivatives to the gradient and stiffness of a tetrahedron.
+    #[cfg_attr(
+        any(not(feature = "interpreter"), test),
+        expect(dead_code, reason = "name of a recorded stage")
+    )]
+    const STIFFNESS: &'static str;
+}
+
+macro_rules! forms {
+    ($($Form:ident $suffix:literal: [$second:literal, $first:literal, $volume:literal, $mixed:literal];)*) => {
+        $(
+            pub(crate) struct $Form;
+
+            impl Form for $Form {
+                const SECOND: bool = $second;
+                const FIRST: bool = $first;
+                const VOLUME: bool = $volume;
+                const MIXED: bool = $mixed;
+                const TANGENT: &'static str = concat!("tangent_by_invariants", $suffix);
+                const STIFFNESS: &'static str = concat!("stiffness_by_invariants", $suffix);
+            }
+        )*
+    };
+}
+
+forms! {
+    All "": [true, true, true, true];
+    Separate "_without_mixed": [true, true, true, false];
+    First "_without_mixed_and_J": [true, true, false, false];
+    AllWithoutSecond "_without_I2": [false, true, true, true];
+    SeparateWithoutSecond "_without_I2_and_mixed": [false, true, true, false];
+    Volume "_with_WJJ_only": [false, false, true, false];
+}
+
+/// Evaluates an expression with `$Form` as a name for the form that has these terms.
+macro_rules! with_form {
+    ($terms:expr, $Form:ident => $value:expr) => {{
+        use $crate::point::invariants::tangent as forms;
+        macro_rules! value {
+            ($Name:ident) => {{
+                type $Form = forms::$Name;
+                $value
+            }};
+        }
+        match $terms {
+            [true, _, _, true] => value!(All),
+            [true, _, true, false] => value!(Separate),
+            [true, _, false, false] => value!(First),
+            [false, _, _, true] => value!(AllWithoutSecond),
+            [false, true, _, false] => value!(SeparateWithoutSecond),
+            [false, false, _, false] => value!(Volume),
+        }
+    }};
+}
+pub(crate) use with_form;
+
+/// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P.
 #[inline(always)]
-fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>(
-    [I1, I2, J]: [R; 3],
-    derivatives: &[R; 9],
-) -> (R, R) {
+fn bounds<R: Real, T: Form>([I1, I2, J]: [R; 3], derivatives: &[R; 9]) -> (R, R) {
     let mut sizes = *derivatives;
     for size in &mut sizes {
         *size = size.abs();
@@ -65,25 +130,25 @@ fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME
     let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = sizes;
     let (two, four) = (R::splat(2.0), R::splat(4.0));
     let (mut tangent, mut stress) = (two * W1, two * W1);
-    if HAS_VOLUME {
+    if T::VOLUME {
         // f ≤ (f² + 3)/(2√3).
         let f = I1.mul_add(R::splat(0.5 * FRAC_1_SQRT_3), R::splat(1.5 * FRAC_1_SQRT_3));
         tangent = f.mul_add(WJ, I2.mul_add(WJJ, tangent));
         stress = stress + WJ;
     }
-    if HAS_SECOND {
+    if T::SECOND {
         // c ≤ f²/√3.
         tangent = (R::splat(6.0 + 2.0 * FRAC_1_SQRT_3) * I1).mul_add(W2, tangent);
         stress = two.mul_add(W2, stress);
     }
-    if HAS_SECOND || HAS_ALL {
+    if T::FIRST {
         tangent = (four * I1).mul_add(W11, tangent);
     }
-    if HAS_ALL {
+    if T::MIXED {
         // f c ≤ (f² + c²)/2.
         tangent = (two * (I1 + I2)).mul_add(W1J, tangent);
     }
-    if HAS_SECOND && HAS_ALL {
+    if T::SECOND && T::MIXED {
         // f d ≤ f² + d²/4 and c d ≤ c² + d²/4.
         let d2 = R::splat(3.0).mul_add(J * J, I1 * I2);
         tangent = (four * d2).mul_add(W22, tangent);
@@ -102,11 +167,11 @@ pub(crate) trait Coordinates<R> {
     /// True if W = I.
     const ARE_ENTRIES: bool;
 
-    /// A Wᵀ.
-    fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R>;
+    /// W a: a row of A Wᵀ from that of A.
+    fn pulled(&self, a: [R; 3]) -> [R; 3];
 
-    /// A (cof W)ᵀ.
-    fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R>;
+    /// (cof W) a.
+    fn pulled_normal(&self, a: [R; 3]) -> [R; 3];
 
     /// `factor` (W Wᵀ)xy; `None` if it is zero for any factor.
     fn metric(&self, x: usize, y: usize, factor: R) -> Option<R>;
@@ -119,13 +184,13 @@ impl<R: Real> Coordinates<R> for Entries {
     const ARE_ENTRIES: bool = true;
 
     #[inline(always)]
-    fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
-        *A
+    fn pulled(&self, a: [R; 3]) -> [R; 3] {
+        a
     }
 
     #[inline(always)]
-    fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R> {
-        *A
+    fn pulled_normal(&self, a: [R; 3]) -> [R; 3] {
+        a
     }
 
     #[inline(always)]
@@ -155,13 +220,13 @@ impl<R: Real> Coordinates<R> for RowsOf<R> {
     const ARE_ENTRIES: bool = false;
 
     #[inline(always)]
-    fn pulled(&self, A: &Matrix3<R>) -> Matrix3<R> {
-        multiply_transposed(A, &self.rows)
+    fn pulled(&self, a: [R; 3]) -> [R; 3] {
+        three!(j => dot(a, self.rows[j]))
     }
 
     #[inline(always)]
-    fn pulled_normals(&self, A: &Matrix3<R>) -> Matrix3<R> {
-        multiply_transposed(A, &self.normals)
+    fn pulled_normal(&self, a: [R; 3]) -> [R; 3] {
+        three!(j => dot(a, self.normals[j]))
     }
 
     #[inline(always)]
@@ -170,242 +235,208 @@ impl<R: Real> Coordinates<R> for RowsOf<R> {
     }
 }
 
-/// F, C, D and T seen from other coordinates.
-struct Pulled<R> {
+/// What P and dP/dF are made of at a point.
+pub(crate) struct Terms<R, T> {
     F: Matrix3<R>,
-    C: Matrix3<R>,
-    D: Matrix3<R>,
-    T: Matrix3<R>,
-}
-
-/// The matrices and factors that P and dP/dF are made of at a point.
-///
-/// Without `HAS_SECOND`, derivatives by I2 are taken for zero. Without `HAS_ALL`, so are the second
-/// derivatives other than WJJ and, with `HAS_SECOND`, W11; without `HAS_VOLUME` so are WJ and WJJ, and I1 is
-/// the only invariant. The few forms that this makes are each compiled for every output.
-pub(crate) struct Terms<R, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool> {
-    F: Matrix3<R>,
-    C: Matrix3<R>,
-    D: Matrix3<R>,
-    P: Matrix3<R>,
-    T: Matrix3<R>,
-    /// F Fᵀ.
-    b: Matrix3<R>,
-    /// 2 W1 + 2 W2 I1, and 2 W2.
-    along: [R; 2],
+    /// I1, I2, J.
+    invariants: [R; 3],
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J.
+    derivatives: [R; 9],
     /// Factors of F, D and C in hF, that of F (F : dF) included, in hD, and in hC.
     factors: [[R; 3]; 3],
-    /// N and the largest entry of P: see [`bounds`].
-    bounds: (R, R),
+    /// N, unless there are registers enough to compute it last.
+    bound: Option<R>,
+    form: PhantomData<T>,
 }
 
-impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: bool>
-    Terms<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>
-{
-    /// Name of the stage from these terms to P and dP/dF.
-    pub(crate) const TANGENT: &'static str = match (HAS_SECOND, HAS_ALL) {
-        (true, true) => "tangent_by_invariants",
-        (true, false) if !HAS_VOLUME => "tangent_by_invariants_without_mixed_and_J",
-        (true, false) => "tangent_by_invariants_without_mixed",
-        (false, true) => "tangent_by_invariants_without_I2",
-        (false, false) => "tangent_by_invariants_without_I2_and_mixed",
-    };
+/// A row of F, D and C seen from other coordinates, and of hF, hD and hC, a triple for each column.
+struct Row<R> {
+    F: [R; 3],
+    D: [R; 3],
+    C: [R; 3],
+    h: [[R; 3]; 3],
+}
 
-    /// Name of the stage from these terms to the gradient and stiffness of a tetrahedron.
-    #[cfg(all(feature = "interpreter", not(test)))]
-    pub(crate) const STIFFNESS: &'static str = match (HAS_SECOND, HAS_ALL) {
-        (true, true) => "stiffness_by_invariants",
-        (true, false) if !HAS_VOLUME => "stiffness_by_invariants_without_mixed_and_J",
-        (true, false) => "stiffness_by_invariants_without_mixed",
-        (false, true) => "stiffness_by_invariants_without_I2",
-        (false, false) => "stiffness_by_invariants_without_I2_and_mixed",
-    };
-
+impl<R: Real, T: Form> Terms<R, T> {
     /// The terms at F with its invariants, and W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J there.
     #[inline(always)]
     pub(crate) fn new(F: &Matrix3<R>, invariants: [R; 3], derivatives: &[R; 9]) -> Self {
-        let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = *derivatives;
+        let [_, W2, _, W11, W22, WJJ, W12, W1J, W2J] = *derivatives;
         let (two, four) = (R::splat(2.0), R::splat(4.0));
-        let (p1, p2) = (two * W1, two * W2);
-        let C = cofactor(F);
-        let D = if HAS_SECOND { half_derivative_of_I2(F) } else { C };
-        let [I1, I2, J] = invariants;
-        let invariants = [I1, if HAS_SECOND { I2 } else { square(&C) }, J];
         let (a11, a12, a22, a1J, a2J) = (four * W11, four * W12, four * W22, two * W1J, two * W2J);
-        Self {
-            F: *F,
-            C,
-            D,
-            P: stress_of_terms::<R, HAS_SECOND, HAS_VOLUME>([F, &D, &C], [p1, p2, WJ]),
-            T: three!(i => three!(j => {
-                match (HAS_SECOND, HAS_VOLUME) {
-                    (true, true) => p2.mul_add(C[i][j], WJ * F[i][j]),
-                    (true, false) => p2 * C[i][j],
-                    (false, _) => WJ * F[i][j],
-                }
-            })),
-            b: if HAS_SECOND { gram(F) } else { *F },
-            along: [if HAS_SECOND { p2.mul_add(I1, p1) } else { p1 }, p2],
-            factors: [[if HAS_SECOND { a11 + p2 } else { a11 }, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]],
-            bounds: bounds::<R, HAS_SECOND, HAS_ALL, HAS_VOLUME>(invariants, derivatives),
+        let a11 = if T::SECOND { two.mul_add(W2, a11) } else { a11 };
+        let factors = [[a11, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]];
+        let terms =
+            Self { F: *F, invariants, derivatives: *derivatives, factors, bound: None, form: PhantomData };
+        if R::HAS_MANY_REGISTERS {
+            return terms;
         }
+        Self { bound: Some(terms.bounds().0), ..terms }
+    }
+
+    /// 2 W1, 2 W2 and WJ.
+    #[inline(always)]
+    fn slopes(&self) -> [R; 3] {
+        let [W1, W2, WJ, ..] = self.derivatives;
+        [W1 + W1, W2 + W2, WJ]
     }
 
     /// First Piola stress P, Pa.
     #[inline(always)]
     pub(crate) fn stress(&self) -> Matrix3<R> {
-        self.P
+        stress_of_terms(&self.F, self.slopes(), T::SECOND, T::VOLUME)
     }
 
-    /// A bound of the entries of dP/dF, Pa.
-    #[cfg(feature = "batch")]
+    /// A bound of the entries of dP/dF, N in the text above, Pa.
     #[inline(always)]
     pub(crate) fn bound(&self) -> R {
-        self.bounds.0
+        self.bound.unwrap_or(self.bounds().0)
+    }
+
+    /// It, and one of the entries of P, Pa.
+    #[inline(always)]
+    fn bounds(&self) -> (R, R) {
+        let [I1, I2, J] = self.invariants;
+        let I2 = if T::SECOND { I2 } else { square(&cofactor(&self.F)) };
+        bounds::<R, T>([I1, I2, J], &self.derivatives)
     }
 
     /// True if dP/dF is as accurate as by a decomposition, given the largest entry on its diagonal, and
     /// nothing on the way to it or to P leaves the range.
     #[inline(always)]
-    pub(crate) fn keeps_digits(&self, largest: R) -> R::Mask {
-        let (tangent, stress) = self.bounds;
+    fn keeps_digits(&self, largest: R) -> R::Mask {
+        let (tangent, (_, stress)) = (self.bound(), self.bounds());
         // Of tiny F the factors are far larger than the products.
         let [[a11, a12, a1J], [_, a22, a2J], [.., aJJ]] = self.factors;
         let mut sizes = tangent + stress;
-        if HAS_VOLUME {
+        if T::VOLUME {
             sizes = sizes + aJJ.abs();
         }
-        if HAS_SECOND || HAS_ALL {
+        if T::FIRST {
             sizes = sizes + a11.abs();
         }
-        if HAS_ALL {
+        if T::MIXED {
             sizes = sizes + a1J.abs();
         }
-        if HAS_SECOND && HAS_ALL {
+        if T::SECOND && T::MIXED {
             sizes = sizes + a12.abs() + a22.abs() + a2J.abs();
         }
         tangent.less(R::splat(MAX_CANCELLATION) * largest) & (R::splat(16.0) * sizes).is_finite()
     }
 
-    /// The largest entry on the diagonal of dP/dF, Pa.
+    /// Row a, seen from the coordinates.
     #[inline(always)]
-    fn largest_on_diagonal(&self) -> R {
-        let mut largest = R::splat(0.0);
-        for a in 0..3 {
-            let h = self.products(a, &self.F, &self.D, &self.C);
-            for x in 0..3 {
-                let metric = Some(self.metric_factor(a));
-                let entry = self.on_diagonal(a, x, x, &self.F, &self.D, &self.C, &h, metric);
-                largest = entry.abs().max(largest);
-            }
-        }
-        largest
+    fn row(&self, a: usize, from: &impl Coordinates<R>) -> Row<R> {
+        let F = from.pulled(self.F[a]);
+        let C = if T::VOLUME { from.pulled(cofactor_row(&self.F, a)) } else { F };
+        let D = if T::SECOND && T::MIXED { from.pulled(half_derivative_of_I2(&self.F)[a]) } else { C };
+        let [[a11, ..], _, [.., aJJ]] = self.factors;
+        let h = three!(y => match T::MIXED {
+            false => [a11 * F[y], R::splat(0.0), aJJ * C[y]],
+            true => three!(k => {
+                let [f, d, c] = self.factors[k];
+                let sum = f.mul_add(F[y], c * C[y]);
+                if T::SECOND { d.mul_add(D[y], sum) } else { sum }
+            }),
+        });
+        Row { F, D, C, h }
     }
 
-    /// hF, hD and hC in a row, a triple for each column.
+    /// F̃ax h̃Fcy + D̃ax h̃Dcy + C̃ax h̃Ccy and another term, of rows a and c.
     #[inline(always)]
-    fn products(&self, row: usize, F: &Matrix3<R>, D: &Matrix3<R>, C: &Matrix3<R>) -> [[R; 3]; 3] {
-        if !HAS_ALL {
-            let [[a11, ..], _, [.., aJJ]] = self.factors;
-            return three!(y => [a11 * F[row][y], R::splat(0.0), aJJ * C[row][y]]);
-        }
-        three!(y => three!(k => {
-            let [f, d, c] = self.factors[k];
-            let sum = f.mul_add(F[row][y], c * C[row][y]);
-            if HAS_SECOND { d.mul_add(D[row][y], sum) } else { sum }
-        }))
-    }
-
-    /// F̃ax h̃F + D̃ax h̃D + C̃ax h̃C and another term.
-    #[inline(always)]
-    fn ranks(&self, [F, D, C]: [R; 3], [hF, hD, hC]: [R; 3], other: Option<R>) -> R {
+    fn ranks(left: &Row<R>, x: usize, right: &Row<R>, y: usize, other: Option<R>) -> R {
+        let (Row { F, D, C, .. }, [hF, hD, hC]) = (left, right.h[y]);
         let mut sum = other;
-        if HAS_VOLUME {
-            sum = add(C, hC, sum);
+        if T::VOLUME {
+            sum = add(C[x], hC, sum);
         }
-        if HAS_SECOND || HAS_ALL {
-            sum = add(F, hF, sum);
+        if T::FIRST {
+            sum = add(F[x], hF, sum);
         }
-        if HAS_SECOND && HAS_ALL {
-            sum = add(D, hD, sum);
+        if T::SECOND && T::MIXED {
+            sum = add(D[x], hD, sum);
         }
         sum.unwrap_or(R::splat(0.0))
     }
 
-    /// K between (a, x) and (a, y), `metric` being the term with W Wᵀ.
+    /// K between (a, x) and (a, y) with row a, x a row and y a column; `F` is F̃.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "two rows of three matrices, and their products")]
     fn on_diagonal(
         &self,
         a: usize,
-        x: usize,
-        y: usize,
+        [x, y]: [usize; 2],
+        row: &Row<R>,
         F: &Matrix3<R>,
-        D: &Matrix3<R>,
-        C: &Matrix3<R>,
-        h: &[[R; 3]; 3],
-        metric: Option<R>,
+        from: &impl Coordinates<R>,
     ) -> R {
-        let sum = self.ranks([F[a][x], D[a][x], C[a][x]], h[y], metric);
-        if !HAS_SECOND {
-            return sum;
+        let [p1, p2, _] = self.slopes();
+        if !T::SECOND {
+            return Self::ranks(row, x, row, y, from.metric(x, y, p1));
         }
-        let right = dot([F[0][x], F[1][x], F[2][x]], [F[0][y], F[1][y], F[2][y]]);
-        (-self.along[1]).mul_add(right, sum)
+        let along = (-p2).mul_add(dot(self.F[a], self.F[a]), p2.mul_add(self.invariants[0], p1));
+        let sum = Self::ranks(row, x, row, y, from.metric(x, y, along));
+        (-p2).mul_add(dot(column(F, x), column(F, y)), sum)
     }
 
-    /// Factor of W Wᵀ in K between (a, x) and (a, y).
+    /// K between (a, x) and (c, y) with rows a < c, x a row and y a column.
     #[inline(always)]
-    fn metric_factor(&self, a: usize) -> R {
-        let [along, p2] = self.along;
-        if HAS_SECOND { (-p2).mul_add(self.b[a][a], along) } else { along }
-    }
-
-    /// K between (a, x) and (a, y), x a row and y a column.
-    #[inline(always)]
-    fn diagonal_block<C: Coordinates<R>>(&self, a: usize, seen: &Pulled<R>, from: &C) -> Matrix3<R> {
-        let Pulled { F, C, D, .. } = seen;
-        let h = self.products(a, F, D, C);
-        symmetric!(x, y => {
-            let metric = from.metric(x, y, self.metric_factor(a));
-            self.on_diagonal(a, x, y, F, D, C, &h, metric)
-        })
-    }
-
-    /// K between (a, x) and (c, y) for a < c, x a row and y a column.
-    #[inline(always)]
-    fn mixed_block<C: Coordinates<R>>(&self, [a, c]: [usize; 2], seen: &Pulled<R>, from: &C) -> Matrix3<R> {
-        let Pulled { F, C, D, T } = seen;
-        let h = self.products(c, F, D, C);
+    fn mixed_block(
+        &self,
+        [a, c]: [usize; 2],
+        [left, right]: [&Row<R>; 2],
+        from: &impl Coordinates<R>,
+    ) -> Matrix3<R> {
+        let [_, p2, WJ] = self.slopes();
+        let (k, b) = (third(a, c), dot(self.F[a], self.F[c]));
+        let (F, C) = (self.F[k], cofactor_row(&self.F, k));
+        let T = from.pulled_normal(three!(j => match (T::SECOND, T::VOLUME) {
+            (true, true) => p2.mul_add(C[j], WJ * F[j]),
+            (true, false) => p2 * C[j],
+            (false, _) => WJ * F[j],
+        }));
         three!(x => three!(y => {
             let turned = match (y + 3 - x) % 3 {
                 0 => None,
-                turn if turn == c - a => Some(T[third(a, c)][third(x, y)]),
-                _ => Some(-T[third(a, c)][third(x, y)]),
+                turn if turn == c - a => Some(T[third(x, y)]),
+                _ => Some(-T[third(x, y)]),
             };
-            let metric = if HAS_SECOND { from.metric(x, y, -self.along[1] * self.b[a][c]) } else { None };
+            let metric = if T::SECOND { from.metric(x, y, -p2 * b) } else { None };
             let other = match (metric, turned) {
                 (Some(metric), Some(turned)) => Some(metric + turned),
                 (metric, turned) => metric.or(turned),
             };
-            self.ranks([F[a][x], D[a][x], C[a][x]], h[y], other)
+            Self::ranks(left, x, right, y, other)
         }))
     }
 
     /// Assembles dP/dF in the coordinates, as 3×3 blocks like those of
-    /// [`assemble_blocks`](super::assemble_blocks), Pa. Returns the largest entry on the diagonal of dP/dF.
+    /// [`assemble_blocks`](super::assemble_blocks), Pa. Returns the lanes for which dP/dF is as accurate as by a
+    /// decomposition, and nothing on the way to it or to P leaves the range.
+    ///
+    /// A row is computed where the first block takes it, and what judges the tangent afterwards: a processor
+    /// that has many results to store, and then many to compute, does not do both at the same time.
     #[inline(always)]
-    pub(crate) fn assemble<C: Coordinates<R>>(&self, coordinates: &C, to: &mut impl Assemble<R>) -> R {
-        let mut largest = if C::ARE_ENTRIES { R::splat(0.0) } else { self.largest_on_diagonal() };
-        let (F, C) = (coordinates.pulled(&self.F), coordinates.pulled(&self.C));
-        let D = if HAS_SECOND && HAS_ALL { coordinates.pulled(&self.D) } else { C };
-        let seen = &Pulled { F, C, D, T: coordinates.pulled_normals(&self.T) };
-        largest = self.put_diagonal(0, largest, seen, coordinates, to);
-        to.block(0, 1, &self.mixed_block([0, 1], seen, coordinates));
-        to.block(0, 2, &self.mixed_block([0, 2], seen, coordinates));
-        largest = self.put_diagonal(1, largest, seen, coordinates, to);
-        to.block(1, 2, &self.mixed_block([1, 2], seen, coordinates));
-        self.put_diagonal(2, largest, seen, coordinates, to)
+    pub(crate) fn assemble<C: Coordinates<R>>(&self, from: &C, to: &mut impl Assemble<R>) -> R::Mask {
+        let mut largest = R::splat(0.0);
+        let F = three!(a => from.pulled(self.F[a]));
+        let first = &self.row(0, from);
+        largest = self.put_diagonal(0, first, largest, &F, from, to);
+        let second = &self.row(1, from);
+        to.block(0, 1, &self.mixed_block([0, 1], [first, second], from));
+        let third = &self.row(2, from);
+        to.block(0, 2, &self.mixed_block([0, 2], [first, third], from));
+        largest = self.put_diagonal(1, second, largest, &F, from, to);
+        to.block(1, 2, &self.mixed_block([1, 2], [second, third], from));
+        largest = self.put_diagonal(2, third, largest, &F, from, to);
+        if !C::ARE_ENTRIES {
+            for a in 0..3 {
+                let row = self.row(a, &Entries);
+                for x in 0..3 {
+                    largest = self.on_diagonal(a, [x, x], &row, &self.F, &Entries).abs().max(largest);
+                }
+            }
+        }
+        self.keeps_digits(largest)
     }
 
     /// Puts a block on the diagonal. Returns the largest entry on the diagonal of dP/dF so far.
@@ -413,12 +444,13 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool, const HAS_VOLUME: boo
     fn put_diagonal<C: Coordinates<R>>(
         &self,
         a: usize,
+        row: &Row<R>,
         mut largest: R,
-        seen: &Pulled<R>,
-        coordinates: &C,
+        F: &Matrix3<R>,
+        from: &C,
         to: &mut impl Assemble<R>,
     ) -> R {
-        let block = self.diagonal_block(a, seen, coordinates);
+        let block = symmetric!(x, y => self.on_diagonal(a, [x, y], row, F, from));
         if C::ARE_ENTRIES {
             for x in 0..3 {
                 largest = block[x][x].abs().max(largest);
@@ -439,6 +471,7 @@ fn add<R: Real>(a: R, h: R, other: Option<R>) -> Option<R> {
 }
 
 /// A Aᵀ.
+#[cfg(feature = "batch")]
 #[inline(always)]
 fn gram<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
     symmetric!(i, j => dot(A[i], A[j]))
