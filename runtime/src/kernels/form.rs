@@ -343,7 +343,7 @@ impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
         to: &mut (impl Components<R> + ?Sized),
     ) -> R::Mask {
         // Before the entries, which need all registers.
-        let bound = terms.bound();
+        let (bound, _) = terms.bounds();
         let rest = Rest::new(*rest);
         let coordinates = RowsOf::new(rest.scaled_gradients());
         let keeps_digits = terms.assemble(&coordinates, &mut StiffnessPlace::<F, _, N>(PhantomData, to));

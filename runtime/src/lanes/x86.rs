@@ -104,10 +104,12 @@ macro_rules! register {
                 to: &mut [$Number],
             ) {
                 const LINE: usize = <$Number as Scalar>::LINE;
-                // Registers that are lines have as many points: by constants the loops are unrolled.
+                // Registers that are lines have as many points. By constants, loops over few components are
+                // unrolled; over many that takes the compiler long.
+                const FEW: usize = 2 * LINE;
                 let (rows, columns) = match ($lanes, FROM, TO) {
-                    (LINE, _, LINE) => (LINE, FROM),
-                    (LINE, LINE, _) => (TO, LINE),
+                    (LINE, ..=FEW, LINE) => (LINE, FROM),
+                    (LINE, LINE, ..=FEW) => (TO, LINE),
                     _ => (rows, columns),
                 };
                 // There is a square, and all before the end of the last row, so every entry, is in its slice.

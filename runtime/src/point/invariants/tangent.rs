@@ -120,46 +120,6 @@ macro_rules! with_form {
 }
 pub(crate) use with_form;
 
-/// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P.
-#[inline(always)]
-fn bounds<R: Real, T: Form>([I1, I2, J]: [R; 3], derivatives: &[R; 9]) -> (R, R) {
-    let mut sizes = *derivatives;
-    for size in &mut sizes {
-        *size = size.abs();
-    }
-    let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = sizes;
-    let (two, four) = (R::splat(2.0), R::splat(4.0));
-    let (mut tangent, mut stress) = (two * W1, two * W1);
-    if T::VOLUME {
-        // f ≤ (f² + 3)/(2√3).
-        let f = I1.mul_add(R::splat(0.5 * FRAC_1_SQRT_3), R::splat(1.5 * FRAC_1_SQRT_3));
-        tangent = f.mul_add(WJ, I2.mul_add(WJJ, tangent));
-        stress = stress + WJ;
-    }
-    if T::SECOND {
-        // c ≤ f²/√3.
-        tangent = (R::splat(6.0 + 2.0 * FRAC_1_SQRT_3) * I1).mul_add(W2, tangent);
-        stress = two.mul_add(W2, stress);
-    }
-    if T::FIRST {
-        tangent = (four * I1).mul_add(W11, tangent);
-    }
-    if T::MIXED {
-        // f c ≤ (f² + c²)/2.
-        tangent = (two * (I1 + I2)).mul_add(W1J, tangent);
-    }
-    if T::SECOND && T::MIXED {
-        // f d ≤ f² + d²/4 and c d ≤ c² + d²/4.
-        let d2 = R::splat(3.0).mul_add(J * J, I1 * I2);
-        tangent = (four * d2).mul_add(W22, tangent);
-        tangent = R::splat(8.0).mul_add(I1, two * d2).mul_add(W12, tangent);
-        tangent = four.mul_add(I2, d2).mul_add(W2J, tangent);
-    }
-    // No entry of F, C and D exceeds (1 + f²)².
-    let largest = R::splat(1.0) + I1;
-    (tangent, largest * (largest * stress))
-}
-
 const FRAC_1_SQRT_3: f64 = 0.577_350_269_189_625_8;
 
 /// Coordinates of a tangent: the rows of W.
@@ -238,14 +198,15 @@ impl<R: Real> Coordinates<R> for RowsOf<R> {
 /// What P and dP/dF are made of at a point.
 pub(crate) struct Terms<R, T> {
     F: Matrix3<R>,
+    D: Matrix3<R>,
     /// I1, I2, J.
     invariants: [R; 3],
     /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J.
     derivatives: [R; 9],
     /// Factors of F, D and C in hF, that of F (F : dF) included, in hD, and in hC.
     factors: [[R; 3]; 3],
-    /// N, unless there are registers enough to compute it last.
-    bound: Option<R>,
+    /// [`Self::bounds`], unless there are registers enough to compute them last.
+    bounds: Option<(R, R)>,
     form: PhantomData<T>,
 }
 
@@ -266,12 +227,13 @@ impl<R: Real, T: Form> Terms<R, T> {
         let (a11, a12, a22, a1J, a2J) = (four * W11, four * W12, four * W22, two * W1J, two * W2J);
         let a11 = if T::SECOND { two.mul_add(W2, a11) } else { a11 };
         let factors = [[a11, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]];
-        let terms =
-            Self { F: *F, invariants, derivatives: *derivatives, factors, bound: None, form: PhantomData };
+        let (F, derivatives, form) = (*F, *derivatives, PhantomData);
+        let D = if T::SECOND && T::MIXED { half_derivative_of_I2(&F) } else { F };
+        let terms = Self { F, D, invariants, derivatives, factors, bounds: None, form };
         if R::HAS_MANY_REGISTERS {
             return terms;
         }
-        Self { bound: Some(terms.bounds().0), ..terms }
+        Self { bounds: Some(terms.bounds()), ..terms }
     }
 
     /// 2 W1, 2 W2 and WJ.
@@ -287,25 +249,56 @@ impl<R: Real, T: Form> Terms<R, T> {
         stress_of_terms(&self.F, self.slopes(), T::SECOND, T::VOLUME)
     }
 
-    /// A bound of the entries of dP/dF, N in the text above, Pa.
+    /// A bound of the entries of dP/dF, N in the text above, and one of the entries of P, Pa.
     #[inline(always)]
-    pub(crate) fn bound(&self) -> R {
-        self.bound.unwrap_or(self.bounds().0)
-    }
-
-    /// It, and one of the entries of P, Pa.
-    #[inline(always)]
-    fn bounds(&self) -> (R, R) {
+    pub(crate) fn bounds(&self) -> (R, R) {
+        if let Some(bounds) = self.bounds {
+            return bounds;
+        }
         let [I1, I2, J] = self.invariants;
         let I2 = if T::SECOND { I2 } else { square(&cofactor(&self.F)) };
-        bounds::<R, T>([I1, I2, J], &self.derivatives)
+        let mut sizes = self.derivatives;
+        for size in &mut sizes {
+            *size = size.abs();
+        }
+        let [W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J] = sizes;
+        let (two, four) = (R::splat(2.0), R::splat(4.0));
+        let (mut tangent, mut stress) = (two * W1, two * W1);
+        if T::VOLUME {
+            // f ≤ (f² + 3)/(2√3).
+            let f = I1.mul_add(R::splat(0.5 * FRAC_1_SQRT_3), R::splat(1.5 * FRAC_1_SQRT_3));
+            tangent = f.mul_add(WJ, I2.mul_add(WJJ, tangent));
+            stress = stress + WJ;
+        }
+        if T::SECOND {
+            // c ≤ f²/√3.
+            tangent = (R::splat(6.0 + 2.0 * FRAC_1_SQRT_3) * I1).mul_add(W2, tangent);
+            stress = two.mul_add(W2, stress);
+        }
+        if T::FIRST {
+            tangent = (four * I1).mul_add(W11, tangent);
+        }
+        if T::MIXED {
+            // f c ≤ (f² + c²)/2.
+            tangent = (two * (I1 + I2)).mul_add(W1J, tangent);
+        }
+        if T::SECOND && T::MIXED {
+            // f d ≤ f² + d²/4 and c d ≤ c² + d²/4.
+            let d2 = R::splat(3.0).mul_add(J * J, I1 * I2);
+            tangent = (four * d2).mul_add(W22, tangent);
+            tangent = R::splat(8.0).mul_add(I1, two * d2).mul_add(W12, tangent);
+            tangent = four.mul_add(I2, d2).mul_add(W2J, tangent);
+        }
+        // No entry of F, C and D exceeds (1 + f²)².
+        let largest = R::splat(1.0) + I1;
+        (tangent, largest * (largest * stress))
     }
 
     /// True if dP/dF is as accurate as by a decomposition, given the largest entry on its diagonal, and
     /// nothing on the way to it or to P leaves the range.
     #[inline(always)]
     fn keeps_digits(&self, largest: R) -> R::Mask {
-        let (tangent, (_, stress)) = (self.bound(), self.bounds());
+        let (tangent, stress) = self.bounds();
         // Of tiny F the factors are far larger than the products.
         let [[a11, a12, a1J], [_, a22, a2J], [.., aJJ]] = self.factors;
         let mut sizes = tangent + stress;
@@ -329,7 +322,7 @@ impl<R: Real, T: Form> Terms<R, T> {
     fn row(&self, a: usize, from: &impl Coordinates<R>) -> Row<R> {
         let F = from.pulled(self.F[a]);
         let C = if T::VOLUME { from.pulled(cofactor_row(&self.F, a)) } else { F };
-        let D = if T::SECOND && T::MIXED { from.pulled(half_derivative_of_I2(&self.F)[a]) } else { C };
+        let D = if T::SECOND && T::MIXED { from.pulled(self.D[a]) } else { C };
         let [[a11, ..], _, [.., aJJ]] = self.factors;
         let h = three!(y => match T::MIXED {
             false => [a11 * F[y], R::splat(0.0), aJJ * C[y]],
@@ -359,23 +352,24 @@ impl<R: Real, T: Form> Terms<R, T> {
         sum.unwrap_or(R::splat(0.0))
     }
 
-    /// K between (a, x) and (a, y) with row a, x a row and y a column; `F` is F̃.
+    /// Factor of W Wᵀ in K between (a, x) and (a, y).
     #[inline(always)]
-    fn on_diagonal(
-        &self,
-        a: usize,
-        [x, y]: [usize; 2],
-        row: &Row<R>,
-        F: &Matrix3<R>,
-        from: &impl Coordinates<R>,
-    ) -> R {
+    fn metric_factor(&self, a: usize) -> R {
         let [p1, p2, _] = self.slopes();
         if !T::SECOND {
-            return Self::ranks(row, x, row, y, from.metric(x, y, p1));
+            return p1;
         }
-        let along = (-p2).mul_add(dot(self.F[a], self.F[a]), p2.mul_add(self.invariants[0], p1));
-        let sum = Self::ranks(row, x, row, y, from.metric(x, y, along));
-        (-p2).mul_add(dot(column(F, x), column(F, y)), sum)
+        (-p2).mul_add(dot(self.F[a], self.F[a]), p2.mul_add(self.invariants[0], p1))
+    }
+
+    /// K between (a, x) and (a, y) with row a, x a row and y a column; `metric` is the term with W Wᵀ.
+    #[inline(always)]
+    fn on_diagonal(&self, [x, y]: [usize; 2], row: &Row<R>, F: &Matrix3<R>, metric: Option<R>) -> R {
+        let sum = Self::ranks(row, x, row, y, metric);
+        if !T::SECOND {
+            return sum;
+        }
+        (-self.slopes()[1]).mul_add(dot(column(F, x), column(F, y)), sum)
     }
 
     /// K between (a, x) and (c, y) with rows a < c, x a row and y a column.
@@ -430,9 +424,9 @@ impl<R: Real, T: Form> Terms<R, T> {
         largest = self.put_diagonal(2, third, largest, &F, from, to);
         if !C::ARE_ENTRIES {
             for a in 0..3 {
-                let row = self.row(a, &Entries);
+                let (row, metric) = (self.row(a, &Entries), Some(self.metric_factor(a)));
                 for x in 0..3 {
-                    largest = self.on_diagonal(a, [x, x], &row, &self.F, &Entries).abs().max(largest);
+                    largest = self.on_diagonal([x, x], &row, &self.F, metric).max(largest);
                 }
             }
         }
@@ -450,10 +444,11 @@ impl<R: Real, T: Form> Terms<R, T> {
         from: &C,
         to: &mut impl Assemble<R>,
     ) -> R {
-        let block = symmetric!(x, y => self.on_diagonal(a, [x, y], row, F, from));
+        let factor = self.metric_factor(a);
+        let block = symmetric!(x, y => self.on_diagonal([x, y], row, F, from.metric(x, y, factor)));
         if C::ARE_ENTRIES {
             for x in 0..3 {
-                largest = block[x][x].abs().max(largest);
+                largest = block[x][x].max(largest);
             }
         }
         to.block(a, a, &block);
