@@ -229,7 +229,7 @@ impl Curvature {
     #[inline(always)]
     pub(crate) fn terms(self, has_second: bool) -> [bool; 4] {
         match self {
-            // With I2 like `Separate`, as its derivative joins W11.
+            // With I2 like `Separate`: W2 and W11 share a term.
             Self::Volume => [has_second, has_second, true, false],
             Self::Separate => [has_second, true, true, false],
             Self::All => [has_second, true, true, true],

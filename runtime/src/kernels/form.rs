@@ -7,7 +7,7 @@ use std::marker::PhantomData;
 use super::sink::{LineBuffer, Sink, Source};
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
-use crate::point::invariants::tangent::{Entries, Form, RowsOf, Terms};
+use crate::point::invariants::tangent::{Entries, RowsOf, TermSet, Terms};
 use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks, multiply};
 use crate::status::Status;
@@ -131,7 +131,7 @@ pub(crate) trait Output<S: Site, const N: usize> {
 
     /// Returns the lanes for which the tangent is as accurate as by a decomposition, and nothing can overflow
     /// on the way from it to the form.
-    fn put_all_by_invariants<R: Real, T: Form>(
+    fn put_all_by_invariants<R: Real, T: TermSet>(
         terms: &Terms<R, T>,
         rest: &S::Rest<R>,
         to: &mut (impl Components<R> + ?Sized),
@@ -180,7 +180,7 @@ impl Output<Points, 81> for FullTangent {
     }
 
     #[inline(always)]
-    fn put_all_by_invariants<R: Real, T: Form>(
+    fn put_all_by_invariants<R: Real, T: TermSet>(
         terms: &Terms<R, T>,
         (): &(),
         to: &mut (impl Components<R> + ?Sized),
@@ -337,7 +337,7 @@ impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
     }
 
     #[inline(always)]
-    fn put_all_by_invariants<R: Real, T: Form>(
+    fn put_all_by_invariants<R: Real, T: TermSet>(
         terms: &Terms<R, T>,
         rest: &[R; 10],
         to: &mut (impl Components<R> + ?Sized),

@@ -10,7 +10,7 @@ use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Curvature;
-use crate::point::invariants::tangent::{Form, Terms, with_form};
+use crate::point::invariants::tangent::{TermSet, Terms, with_term_set};
 use crate::point::matrix::to_matrix;
 use crate::point::{Filter, Svd, Tangent, judge};
 use crate::status::Status;
@@ -130,7 +130,7 @@ pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, tangents: TangentsB
 
 /// Runs the kernel for the terms that do not vanish.
 ///
-/// Each of the forms pays: with all terms instead, tangents of Saint Venant–Kirchhoff take 14 % more
+/// Each of the sets pays: with all terms instead, tangents of Saint Venant–Kirchhoff take 14 % more
 /// instructions, and those of energies in I1 and J 27 %.
 fn with_terms<'a, E, S, M, const N: usize>(
     backend: Backend,
@@ -144,8 +144,8 @@ where
     M: Output<S, N>,
 {
     let terms = tangents.curvature.terms(tangents.has_second_invariant);
-    with_form!(terms, Form => {
-        backend.run(ByInvariants::<_, S, _, Form, N>(tangents, shapes, output, PhantomData))
+    with_term_set!(terms, Set => {
+        backend.run(ByInvariants::<_, S, _, Set, N>(tangents, shapes, output, PhantomData))
     })
 }
 
@@ -162,7 +162,7 @@ where
     E: Scalar,
     S: Site,
     M: Output<S, N>,
-    T: Form,
+    T: TermSet,
 {
     type Output = u64;
 

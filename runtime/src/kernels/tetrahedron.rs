@@ -7,7 +7,7 @@ use super::form::{FullStiffness, Output, cap_twist, gradient_is_finite, put_grad
 use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::{Blocks, PAIRS, Response, ResponseKind};
 use crate::point::invariants::invariants_for;
-use crate::point::invariants::tangent::{Form, Terms, with_form};
+use crate::point::invariants::tangent::{TermSet, Terms, with_term_set};
 use crate::point::matrix::{dot, symmetric, three, transpose};
 use crate::point::{Filter, Matrix3, Point, Tangent, entries_are_finite, evaluate, multiply};
 use crate::status::Status;
@@ -38,7 +38,7 @@ pub fn evaluate_tetrahedron<R: Real>(
         return by_decomposition(material, &F, &rest, filter);
     }
     let terms = material.curvature_by_invariants().terms(material.has_second_invariant());
-    let (served, by_invariants) = with_form!(terms, Form => by_invariants::<R, Form>(material, &F, &rest));
+    let (served, by_invariants) = with_term_set!(terms, Set => by_invariants::<R, Set>(material, &F, &rest));
     if !(!served).any() {
         return by_invariants;
     }
@@ -98,7 +98,7 @@ fn map<R: Real>(hessian: [R; 6], flip: [R; 3], twist: [R; 3]) -> Blocks<R> {
 }
 
 /// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
-fn by_invariants<R: Real, T: Form>(
+fn by_invariants<R: Real, T: TermSet>(
     material: &impl Response<R>,
     F: &Matrix3<R>,
     rest: &[R; 10],

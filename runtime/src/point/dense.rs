@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use super::invariants::invariants_for;
-use super::invariants::tangent::{Entries, Form, Terms, with_form};
+use super::invariants::tangent::{Entries, TermSet, Terms, with_term_set};
 use super::{Filter, Matrix3, evaluate};
 use crate::lanes::{Mask, Real, Truth, stage};
 use crate::material::{Response, ResponseKind};
@@ -40,7 +40,7 @@ pub fn evaluate_dense<R: Real>(
         return by_decomposition(material, F, filter);
     }
     let terms = material.curvature_by_invariants().terms(material.has_second_invariant());
-    let (served, mut dense) = with_form!(terms, Form => by_invariants::<R, Form>(material, F));
+    let (served, mut dense) = with_term_set!(terms, Set => by_invariants::<R, Set>(material, F));
     if (!served).any() {
         let other = by_decomposition(material, F, filter);
         for row in 0..9 {
@@ -68,7 +68,7 @@ fn by_decomposition<R: Real>(
 
 /// Point by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
 #[inline(always)]
-fn by_invariants<R: Real, T: Form>(
+fn by_invariants<R: Real, T: TermSet>(
     material: &(impl Response<R> + ?Sized),
     F: &Matrix3<R>,
 ) -> (R::Mask, DensePoint<R>) {

@@ -51,9 +51,9 @@ use super::super::tangent::Assemble;
 use super::{cofactor, cofactor_row, half_derivative_of_I2, square, stress_of_terms};
 use crate::lanes::Real;
 
-/// Terms that dP/dF has: [`Curvature::terms`](crate::material::Curvature::terms). The few forms are each
+/// Terms that dP/dF has: [`Curvature::terms`](crate::material::Curvature::terms). The few sets are each
 /// compiled for every output.
-pub(crate) trait Form {
+pub(crate) trait TermSet {
     /// True if it has terms with derivatives by I2.
     const SECOND: bool;
     /// True if it has those with W11.
@@ -72,12 +72,12 @@ pub(crate) trait Form {
     const STIFFNESS: &'static str;
 }
 
-macro_rules! forms {
-    ($($Form:ident $suffix:literal: [$second:literal, $first:literal, $volume:literal, $mixed:literal];)*) => {
+macro_rules! term_sets {
+    ($($Set:ident $suffix:literal: [$second:literal, $first:literal, $volume:literal, $mixed:literal];)*) => {
         $(
-            pub(crate) struct $Form;
+            pub(crate) struct $Set;
 
-            impl Form for $Form {
+            impl TermSet for $Set {
                 const SECOND: bool = $second;
                 const FIRST: bool = $first;
                 const VOLUME: bool = $volume;
@@ -89,7 +89,7 @@ macro_rules! forms {
     };
 }
 
-forms! {
+term_sets! {
     All "": [true, true, true, true];
     Separate "_without_mixed": [true, true, true, false];
     First "_without_mixed_and_J": [true, true, false, false];
@@ -98,13 +98,13 @@ forms! {
     Volume "_with_WJJ_only": [false, false, true, false];
 }
 
-/// Evaluates an expression with `$Form` as a name for the form that has these terms.
-macro_rules! with_form {
-    ($terms:expr, $Form:ident => $value:expr) => {{
-        use $crate::point::invariants::tangent as forms;
+/// Evaluates an expression with `$Set` as the name of the set of these terms.
+macro_rules! with_term_set {
+    ($terms:expr, $Set:ident => $value:expr) => {{
+        use $crate::point::invariants::tangent as sets;
         macro_rules! value {
             ($Name:ident) => {{
-                type $Form = forms::$Name;
+                type $Set = sets::$Name;
                 $value
             }};
         }
@@ -118,7 +118,7 @@ macro_rules! with_form {
         }
     }};
 }
-pub(crate) use with_form;
+pub(crate) use with_term_set;
 
 const FRAC_1_SQRT_3: f64 = 0.577_350_269_189_625_8;
 
@@ -198,6 +198,7 @@ impl<R: Real> Coordinates<R> for RowsOf<R> {
 /// What P and dP/dF are made of at a point.
 pub(crate) struct Terms<R, T> {
     F: Matrix3<R>,
+    /// D; F where no term has it.
     D: Matrix3<R>,
     /// I1, I2, J.
     invariants: [R; 3],
@@ -207,7 +208,7 @@ pub(crate) struct Terms<R, T> {
     factors: [[R; 3]; 3],
     /// [`Self::bounds`], unless there are registers enough to compute them last.
     bounds: Option<(R, R)>,
-    form: PhantomData<T>,
+    set: PhantomData<T>,
 }
 
 /// A row of F, D and C seen from other coordinates, and of hF, hD and hC, a triple for each column.
@@ -218,7 +219,7 @@ struct Row<R> {
     h: [[R; 3]; 3],
 }
 
-impl<R: Real, T: Form> Terms<R, T> {
+impl<R: Real, T: TermSet> Terms<R, T> {
     /// The terms at F with its invariants, and W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J there.
     #[inline(always)]
     pub(crate) fn new(F: &Matrix3<R>, invariants: [R; 3], derivatives: &[R; 9]) -> Self {
@@ -227,9 +228,9 @@ impl<R: Real, T: Form> Terms<R, T> {
         let (a11, a12, a22, a1J, a2J) = (four * W11, four * W12, four * W22, two * W1J, two * W2J);
         let a11 = if T::SECOND { two.mul_add(W2, a11) } else { a11 };
         let factors = [[a11, a12, a1J], [a12, a22, a2J], [a1J, a2J, WJJ]];
-        let (F, derivatives, form) = (*F, *derivatives, PhantomData);
+        let (F, derivatives, set) = (*F, *derivatives, PhantomData);
         let D = if T::SECOND && T::MIXED { half_derivative_of_I2(&F) } else { F };
-        let terms = Self { F, D, invariants, derivatives, factors, bounds: None, form };
+        let terms = Self { F, D, invariants, derivatives, factors, bounds: None, set };
         if R::HAS_MANY_REGISTERS {
             return terms;
         }
